@@ -1,0 +1,64 @@
+"""Who made a number, from what: digests, versions, commit."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+from functools import cache
+from pathlib import Path
+
+from . import __version__
+
+
+def sha256_text(text: str) -> str:
+    """Return the SHA-256 of `text` in UTF-8, in hex."""
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+def sha256_file(path: Path | str) -> str:
+    """Return the SHA-256 of a file, in hex."""
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+def deck_digest(inp_text: str, user_text: str | None = None) -> str:
+    """Return the digest that binds an FE result to the physics of its deck.
+
+    Comment lines do not count (``**`` in the deck; ``c``, ``C``, ``*`` or ``!`` in column 1 of the Fortran), so that
+    a new package version or another study title does not make a reference run stale, while any number does.
+    """
+    kept = [line.rstrip() for line in inp_text.splitlines() if not line.startswith("**")]
+    if user_text is not None:
+        kept += [line.rstrip() for line in user_text.splitlines() if line[:1] not in ("c", "C", "*", "!")]
+    return sha256_text("\n".join(kept))
+
+
+@cache
+def commit() -> str:
+    """Return the commit of the code in use, with ``+changes`` for a dirty tree, or ``unknown`` outside git."""
+    here = Path(__file__).resolve().parent
+    environment = {**os.environ, "GIT_OPTIONAL_LOCKS": "0"}
+    try:
+        top = _git(here, environment, "rev-parse", "--show-toplevel")
+        head = _git(here, environment, "rev-parse", "HEAD")
+        changes = _git(Path(top), environment, "status", "--porcelain", "--untracked-files=no", "--", "src")
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"
+    return head[:12] + ("+changes" if changes else "")
+
+
+def version() -> str:
+    """Return the package version."""
+    return __version__
+
+
+def _git(folder: Path, environment: dict[str, str], *arguments: str) -> str:
+    done = subprocess.run(
+        ["git", "-C", str(folder), *arguments],
+        check=True,
+        capture_output=True,
+        text=True,
+        timeout=20,
+        env=environment,
+    )
+    return done.stdout.strip()

@@ -1,0 +1,34 @@
+"""What is to be run: a study file, its models and its cases."""
+
+from .case import Case
+from .load import LoadedStudy, load_study, load_yaml
+from .models import (
+    Block,
+    Compound,
+    Coulomb,
+    DeckSettings,
+    FitSettings,
+    FractionalZener,
+    Friction,
+    FrictionTable,
+    Huemer,
+    HuemerFile,
+    MeasuredBelt,
+    PronyCompound,
+    PronyFile,
+    PronyTerm,
+    Rig,
+    SimplifiedBelt,
+    Sipe,
+    SpringSettings,
+    Study,
+    SweepFile,
+    Wheel,
+    Wlf,
+)
+
+__all__ = [
+    "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FractionalZener", "Friction",
+    "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "PronyCompound", "PronyFile", "PronyTerm",
+    "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf", "load_study", "load_yaml",
+]  # fmt: skip

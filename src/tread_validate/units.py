@@ -1,0 +1,21 @@
+"""Unit factors: multiply a value in the named unit to get SI.
+
+Inside the package every quantity is SI, angles in rad, temperatures in degC. Decks are in mm, tonne, s, MPa, N.
+"""
+
+from __future__ import annotations
+
+import math
+
+MM = 1e-3
+MPA = 1e6
+KPA = 1e3
+DEG = math.pi / 180.0
+RPM = 2.0 * math.pi / 60.0
+PERCENT = 1e-2
+GRAM = 1e-3
+
+DECK_UNITS = "mm, tonne, s, MPa, N, degC"
+DECK_LENGTH = 1e3  # m -> mm
+DECK_STRESS = 1e-6  # Pa -> MPa
+DECK_DENSITY = 1e-12  # kg/m3 -> tonne/mm3
