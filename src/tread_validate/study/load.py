@@ -103,7 +103,7 @@ def load_yaml(text: str, source: Path | str) -> Any:
     if text.count("&") and "*" in text and any(token in text for token in ("<<:", ": *", "- *", ", *", "[*")):
         raise InputError(source, "YAML aliases", "values written out")
     try:
-        return yaml.load(text, Loader=_SafeLoader)  # noqa: S506 - a SafeLoader with a duplicate check
+        return yaml.load(text, Loader=_SafeLoader)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         where = f"{source}:{mark.line + 1}" if mark is not None else str(source)

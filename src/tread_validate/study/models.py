@@ -128,7 +128,10 @@ class Coulomb(FrictionBase):
 
 
 class Huemer(FrictionBase):
-    """mu = (alpha |p|^(n-1) + beta) / (a + b |v|^(-1/m) + c |v|^(-2/m)), p in MPa, v in m/s (Eng. Comput. 18 (2001) 417)."""
+    """mu = (alpha |p|^(n-1) + beta) / (a + b |v|^(-1/m) + c |v|^(-2/m)), p in MPa, v in m/s.
+
+    Huemer et al., Eng. Comput. 18 (2001) 417-436.
+    """
 
     kind: Literal["huemer"]
     alpha: FiniteFloat
