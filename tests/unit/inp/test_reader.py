@@ -1,0 +1,109 @@
+"""Unit tests of the keyword reader: what the language says about lines, case, continuation and includes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tread_validate.errors import InputError
+from tread_validate.inp import read_deck
+
+
+def deck_of(folder: Path, text: str, name: str = "a.inp") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_keywords_and_parameters_do_not_depend_on_case_or_blanks(tmp_path: Path) -> None:
+    """``*Solid   Section, elset = Body`` is SOLID SECTION with ELSET=BODY, on line 2."""
+    deck = read_deck(deck_of(tmp_path, "** comment\n*Solid   Section, elset = Body , CONTROLS\n 1. , 2.,\n"))
+    (block,) = deck.blocks
+    assert block.keyword == "SOLID SECTION"
+    assert dict(block.parameters) == {"ELSET": "BODY", "CONTROLS": None}
+    assert (block.line, block.data[0].number, block.data[0].fields) == (2, 3, ("1.", "2."))
+
+
+def test_a_keyword_line_goes_on_after_a_trailing_comma(tmp_path: Path) -> None:
+    """The continued line counts from its first line."""
+    deck = read_deck(deck_of(tmp_path, '*FRICTION, USER=FRIC,\n** why\n  PROPERTIES=2\n0.9, "aB"\n'))
+    assert dict(deck.blocks[0].parameters) == {"USER": "FRIC", "PROPERTIES": "2"}
+    assert deck.blocks[0].line == 1
+    assert deck.blocks[0].data[0].number == 4
+
+
+def test_quoted_values_keep_their_case_and_commas(tmp_path: Path) -> None:
+    """Only a quoted name is as written."""
+    deck = read_deck(deck_of(tmp_path, '*MATERIAL, NAME="Rubber, soft"\n*MATERIAL, NAME=steel\n'))
+    assert [b.value("NAME") for b in deck.blocks] == ["Rubber, soft", "STEEL"]
+
+
+def test_an_included_file_stands_where_its_include_does(tmp_path: Path) -> None:
+    """Blocks come in text order and name their own file and line."""
+    (tmp_path / "mesh").mkdir()
+    deck_of(tmp_path / "mesh", "*ELEMENT\n1, 2\n", "el.inp")
+    deck = read_deck(deck_of(tmp_path, "*NODE\n1, 0.\n*INCLUDE, INPUT=mesh/el.inp\n*STEP\n"))
+    assert [b.keyword for b in deck.blocks] == ["NODE", "ELEMENT", "STEP"]
+    assert deck.blocks[1].where == "mesh/el.inp:1"
+    assert "1, 2" in deck.text
+
+
+@pytest.mark.parametrize("target", ["../secret.inp", "/etc/hostname", "a.inp", "absent.inp"])
+def test_an_include_that_leaves_the_folder_or_loops_is_refused(tmp_path: Path, target: str) -> None:
+    """The message names the line."""
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (tmp_path / "secret.inp").write_text("*NODE\n")
+    with pytest.raises(InputError, match=r"a\.inp:1"):
+        read_deck(deck_of(folder, f"*INCLUDE, INPUT={target}\n*NODE\n"))
+
+
+def test_an_include_through_a_symbolic_link_out_of_the_folder_is_refused(tmp_path: Path) -> None:
+    """The link's target decides, not its name."""
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (tmp_path / "secret.inp").write_text("*NODE\n")
+    (folder / "link.inp").symlink_to(tmp_path / "secret.inp")
+    with pytest.raises(InputError, match="inside the folder"):
+        read_deck(deck_of(folder, "*INCLUDE, INPUT=link.inp\n"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1, 2\n*NODE\n",
+        "*NODE, NSET=A, nset=B\n",
+        "*\n",
+        "*STEP,\n*NODE\n",
+        "*STEP,\n",
+        "** only a comment\n",
+        "*NODE, =3\n",
+    ],
+)
+def test_broken_syntax_stops_with_its_line(tmp_path: Path, text: str) -> None:
+    """Data before any keyword, a parameter twice, an empty keyword, an unfinished continuation."""
+    with pytest.raises(InputError, match=r"a\.inp:\d"):
+        read_deck(deck_of(tmp_path, text))
+
+
+def test_numbers_are_read_as_fortran_writes_them(tmp_path: Path) -> None:
+    """1.D-9 is 1e-9; an empty field takes the default; a word is refused."""
+    line = read_deck(deck_of(tmp_path, "*DENSITY\n1.D-9, , x, nan\n")).blocks[0].data[0]
+    assert line.number_at(0, "density") == 1e-9
+    assert line.number_at(1, "temperature", 7.0) == 7.0
+    assert line.number_at(9, "absent", 8.0) == 8.0
+    for position in (1, 2, 3):
+        with pytest.raises(InputError, match=r"a\.inp:2"):
+            line.number_at(position, "a number")
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=8))
+def test_any_row_of_floats_survives_the_deck(tmp_path_factory: pytest.TempPathFactory, row: list[float]) -> None:
+    """repr of a float64 is exact, so what was written is what is read."""
+    folder = tmp_path_factory.mktemp("deck")
+    text = "*NODE\n" + ", ".join(repr(value) for value in row) + "\n"
+    line = read_deck(deck_of(folder, text)).blocks[0].data[0]
+    assert [line.number_at(i, "a number") for i in range(len(row))] == row
