@@ -1,0 +1,89 @@
+"""From a compound of the study to its Prony series."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..provenance import sha256_file
+from ..study import Compound, FractionalZener, PronyCompound, PronyFile, Wlf
+from ..units import MPA
+from .collocation import relaxation_times
+from .fit import PronyFit, fit_prony
+from .prony import PronySeries
+from .zener import fractional_zener
+
+Array = NDArray[np.float64]
+
+SURROGATE_POINTS_PER_DECADE = 20
+DIGITS = 7  # of a fitted number, so that decks and digests do not hang on the last bits of a library
+
+
+def prony_series(compound: Compound, root: Path | str | None = None) -> PronySeries:
+    """Return the Prony series of a compound at its data temperature.
+
+    A file name in the compound is relative to `root` (the study's root; the working directory where it is None). Fits
+    are remembered, by the compound's values and the file's SHA-256, so that many cases cost one fit.
+
+    Raises `InputError` for a file that is missing or wrong.
+    """
+    if isinstance(compound, PronyCompound):
+        terms = sorted(compound.terms, key=lambda term: term.relaxation_time_s)
+        return PronySeries(
+            compound.long_term_modulus_MPa * MPA,
+            np.array([term.modulus_MPa * MPA for term in terms]),
+            np.array([term.relaxation_time_s for term in terms]),
+            compound.data_temperature_degC,
+        )
+    if isinstance(compound, FractionalZener):
+        return rounded(fit_surrogate(compound).series)
+    path = (Path(root) if root is not None else Path()) / compound.file
+    digest = sha256_file(path) if path.is_file() else ""
+    return _from_file(compound, path, digest)
+
+
+@lru_cache(maxsize=64)
+def fit_surrogate(compound: FractionalZener) -> PronyFit:
+    """Fit the Prony series of a fractional Zener law, sampled over the compound's band at 20 points a decade."""
+    low, high = compound.fit.band_rad_s
+    points = max(round(SURROGATE_POINTS_PER_DECADE * np.log10(high / low)), compound.fit.terms) + 1
+    w = np.geomspace(low, high, points)
+    modulus = surrogate_modulus(compound, w)
+    times = relaxation_times((low, high), compound.fit.terms, compound.fit.low_margin, compound.fit.high_margin)
+    return fit_prony(w, modulus.real, modulus.imag, times, compound.data_temperature_degC)
+
+
+def surrogate_modulus(compound: FractionalZener, angular_frequency: Array) -> NDArray[np.complex128]:
+    """Return E*(w) in Pa of a fractional Zener compound at its data temperature; w in rad/s, any shape."""
+    return fractional_zener(
+        angular_frequency,
+        compound.long_term_modulus_MPa * MPA,
+        compound.modulus_rise_MPa * MPA,
+        compound.corner_frequency_rad_s,
+        compound.exponent,
+    )
+
+
+@lru_cache(maxsize=64)
+def _from_file(compound: PronyFile, path: Path, digest: str) -> PronySeries:
+    from .material_file import read_material
+
+    return read_material(path).series_at(compound.data_temperature_degC, compound.wlf)
+
+
+def rounded(series: PronySeries) -> PronySeries:
+    """Return the series with 7 significant digits and without terms that carry nothing."""
+    keep = series.moduli > 1e-9 * series.instantaneous_modulus
+    return PronySeries(
+        _round(np.array([series.long_term_modulus]))[0],
+        _round(series.moduli[keep]),
+        _round(series.relaxation_times[keep]),
+        series.reference_temperature,
+    )
+
+
+def _round(values: Array) -> Array:
+    return np.array([float(f"{value:.{DIGITS - 1}e}") for value in values])

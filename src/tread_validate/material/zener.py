@@ -1,0 +1,21 @@
+"""The fractional Zener solid: the law behind the synthetic surrogate compound."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def fractional_zener(
+    angular_frequency: ArrayLike,
+    long_term_modulus: float,
+    modulus_rise: float,
+    corner_frequency: float,
+    exponent: float,
+) -> NDArray[np.complex128]:
+    """Return E*(w) = E_inf + dE (i w/w_c)^a / (1 + (i w/w_c)^a), complex, in the unit of the moduli.
+
+    `angular_frequency` and `corner_frequency` in rad/s, > 0; `exponent` a in 0..1 (1 is the standard linear solid).
+    """
+    u = (1j * np.asarray(angular_frequency, dtype=np.float64) / corner_frequency) ** exponent
+    return np.asarray(long_term_modulus + modulus_rise * u / (1.0 + u), dtype=np.complex128)
