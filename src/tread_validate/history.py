@@ -77,12 +77,13 @@ class History:
         header = tuple(name.strip() for name in lines[start].split(",")) if start < len(lines) else ()
         if header != COLUMNS:
             raise InputError(f"{path}:{start + 1}", ",".join(header) or "no header", "header " + ",".join(COLUMNS))
+        for number, line in enumerate(lines[start + 1 :], start + 2):
+            if line.count(",") != len(COLUMNS) - 1:
+                raise InputError(f"{path}:{number}", line, "four numbers")
         try:
             table = pd.read_csv(io.StringIO("\n".join(lines[start:])), dtype=np.float64)
         except (ValueError, pd.errors.ParserError) as error:
-            raise InputError(path, error, "numbers only below the header, four to a line") from None
-        if table.shape[1] != len(COLUMNS) or tuple(table.columns) != COLUMNS or table.index.nlevels != 1:
-            raise InputError(path, "rows of another length", "four numbers a line")
+            raise InputError(path, error, "numbers only below the header") from None
         time, normal, tangential, slipping = (table[name].to_numpy(dtype=np.float64) for name in COLUMNS)
         try:
             return cls(time, normal, tangential, slipping, provenance)

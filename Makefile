@@ -1,0 +1,61 @@
+# `make report` sets everything up and writes the validation report; `make test` sets everything up and tests.
+.DEFAULT_GOAL := help
+SHELL := /bin/sh
+CORES ?= $(shell nproc 2>/dev/null || echo 1)
+STUDY ?= config/study.yaml
+export PATH := $(CURDIR)/.venv/bin:$(PATH)
+VENV := .venv
+BIN := $(VENV)/bin
+SNAKEMAKE := $(BIN)/snakemake --profile workflow/profiles/default --cores $(CORES) --config study=$(STUDY)
+SYSTEM_PACKAGES := gfortran calculix-ccx chromium chromium-driver poppler-utils
+
+.PHONY: help report test lint verify reference mesh-study bench clean
+
+help: ## Show this list
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+report: $(BIN)/.installed ## Set up, run the study and write reports/index.html and reports/report.pdf
+	@$(SNAKEMAKE)
+	@echo "The report: reports/index.html (and reports/report.pdf)"
+
+test: $(BIN)/.installed-dev system-packages lint ## Set up, then check style, types, layers and workflow, and run the tests
+	@$(BIN)/pytest -m "not heavy" -n $(CORES) --dist worksteal -q
+
+lint: $(BIN)/.installed-dev ## Style, types, import layers, workflow
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check --quiet .
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports --no-logo
+	@$(BIN)/snakefmt --check Snakefile workflow
+	@$(BIN)/snakemake --lint --quiet
+
+verify: $(BIN)/.installed-dev system-packages ## The heavy verification: fine meshes, long convergence series
+	@$(BIN)/pytest -m heavy -q
+
+reference: $(BIN)/.installed gfortran ## Run the embedded FE engine for every case whose reference is missing or stale
+	@$(SNAKEMAKE) reference
+
+mesh-study: $(BIN)/.installed gfortran ## Three meshes of one belt and one rig case, extrapolated
+	@$(SNAKEMAKE) mesh_study
+
+bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory
+	@for file in benchmarks/*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done
+
+clean: ## Remove what the pipeline made (not the virtual environment)
+	@rm -rf results reports/tables reports/figures reports/*.html reports/*.pdf .snakemake
+	@find fe_inputs -mindepth 1 -maxdepth 1 -type d -exec rm -rf {} +
+
+$(BIN)/.installed: pyproject.toml constraints.txt workflow/setup/environment.sh
+	@sh workflow/setup/environment.sh $(VENV) .
+	@touch $@
+
+$(BIN)/.installed-dev: pyproject.toml constraints.txt workflow/setup/environment.sh
+	@sh workflow/setup/environment.sh $(VENV) '.[dev]'
+	@touch $@ $(BIN)/.installed
+
+.PHONY: system-packages gfortran
+system-packages:
+	@sh workflow/setup/packages.sh $(SYSTEM_PACKAGES)
+
+gfortran:
+	@sh workflow/setup/packages.sh gfortran

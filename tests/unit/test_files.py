@@ -1,0 +1,37 @@
+"""Files are whole or absent."""
+
+from __future__ import annotations
+
+import pytest
+
+from tread_validate.errors import InputError
+from tread_validate.files import atomic_path, read_text, write_text
+
+
+def test_failed_write_leaves_the_old_file_and_no_debris(tmp_path):
+    target = tmp_path / "table.csv"
+    write_text(target, "old\n")
+
+    def write_half():
+        with atomic_path(target) as temporary:
+            temporary.write_text("half")
+            raise RuntimeError("halfway")
+
+    with pytest.raises(RuntimeError, match="halfway"):
+        write_half()
+    assert target.read_text() == "old\n"
+    assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]
+
+
+@pytest.mark.parametrize("data", [b"", b"  \n", b"\xff\xfe\x00a", b"a\x00b"])
+def test_text_that_is_none_is_refused(tmp_path, data):
+    path = tmp_path / "text"
+    path.write_bytes(data)
+    with pytest.raises(InputError, match="expected"):
+        read_text(path)
+
+
+def test_byte_order_mark_is_not_part_of_the_text(tmp_path):
+    path = tmp_path / "text"
+    path.write_bytes(b"\xef\xbb\xbfhello")
+    assert read_text(path) == "hello"

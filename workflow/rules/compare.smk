@@ -1,0 +1,35 @@
+# Histories and references -> rows, tables, regressions, verdicts; and the distance to the accepted baseline.
+REFERENCE_FILES = sorted(
+    str(path)
+    for path in Path(REFERENCES).glob("fe/**/*")
+    if path.suffix in (".csv", ".yaml")
+)
+
+
+rule tables:
+    input:
+        study=STUDY,
+        histories=expand(
+            f"{RESULTS}/spring/{{variant}}/{{case}}.csv", variant=VARIANTS, case=CASES
+        ),
+        decks=rules.decks.output.inp,
+        references=REFERENCE_FILES,
+        checked=rules.references.output,
+    output:
+        errors=f"{RESULTS}/tables/errors.csv",
+        regression=f"{RESULTS}/tables/regression.csv",
+        claims=f"{RESULTS}/tables/claims.csv",
+    log:
+        "logs/tables.log",
+    benchmark:
+        "logs/benchmarks/tables.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        spring=lambda wildcards, input: Path(input.histories[0]).parents[1],
+        references=REFERENCES,
+        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        folder=lambda wildcards, output: Path(output.errors).parent,
+    shell:
+        "tread-validate tables {input.study} --spring {params.spring} --references {params.references} "
+        "--decks {params.decks} -o {params.folder} > {log} 2>&1"

@@ -1,0 +1,19 @@
+# Study -> ABAQUS/Explicit decks with their friction routine, all cases in one job.
+rule decks:
+    input:
+        study=STUDY,
+        data=DATA_FILES,
+    output:
+        inp=expand(f"{DECKS}/{{case}}/{{case}}.inp", case=CASES),
+        user=expand(f"{DECKS}/{{case}}/vfric.f", case=CASES),
+        mesh=expand(f"{DECKS}/{{case}}/mesh.vtu", case=CASES),
+    log:
+        "logs/decks.log",
+    benchmark:
+        "logs/benchmarks/decks.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        folder=lambda wildcards, output: Path(output.inp[0]).parents[1],
+    shell:
+        "tread-validate deck {input.study} --all -o {params.folder} > {log} 2>&1"

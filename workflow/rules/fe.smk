@@ -1,0 +1,50 @@
+# Decks -> FE reference runs. A report never waits for these: it uses the committed references whose deck digest
+# still matches and says which are stale or missing. `make reference` runs just those.
+checkpoint stale_references:
+    input:
+        decks=rules.decks.output.inp,
+    output:
+        f"{RESULTS}/fe/stale.txt",
+    log:
+        "logs/stale_references.log",
+    conda:
+        ENVIRONMENT
+    params:
+        study=STUDY,
+        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        store=STORE,
+    shell:
+        "tread-validate stale {params.study} --decks {params.decks} --store {params.store} -o {output} > {log} 2>&1"
+
+
+rule fe:
+    input:
+        inp=f"{DECKS}/{{case}}/{{case}}.inp",
+        user=f"{DECKS}/{{case}}/vfric.f",
+    output:
+        history=f"{RESULTS}/fe/embedded/{{case}}.csv",
+        record=f"{RESULTS}/fe/embedded/{{case}}.yaml",
+    log:
+        "logs/fe/{case}.log",
+    benchmark:
+        "logs/benchmarks/fe/{case}.tsv"
+    conda:
+        ENVIRONMENT
+    threads: 1
+    shell:
+        "tread-validate fe {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
+
+
+rule reference:
+    input:
+        histories=stale_histories,
+        convergence=f"{REFERENCES}/fe/mesh_convergence.yaml",
+    log:
+        "logs/reference.log",
+    conda:
+        ENVIRONMENT
+    params:
+        store=STORE,
+    shell:
+        "tread-validate file-references {input.histories} --convergence {input.convergence} "
+        "--store {params.store} 2>&1 | tee {log}"

@@ -1,0 +1,15 @@
+# The reference data package: every table against its schema and checksum.
+rule references:
+    input:
+        package=f"{REFERENCES}/datapackage.yaml",
+        published=f"{REFERENCES}/published/published.csv",
+    output:
+        f"{RESULTS}/references.txt",
+    log:
+        "logs/references.log",
+    benchmark:
+        "logs/benchmarks/references.tsv"
+    conda:
+        ENVIRONMENT
+    shell:
+        "tread-validate references {input.package} -o {output} > {log} 2>&1"

@@ -1,0 +1,29 @@
+# Tables -> one HTML page, one PDF.
+rule report:
+    input:
+        study=STUDY,
+        errors=rules.tables.output.errors,
+        histories=rules.tables.input.histories,
+        decks=rules.decks.output.mesh,
+    output:
+        page=report(
+            REPORT_PAGE, caption="../report/page.rst", category="Validation report"
+        ),
+        pdf=report(
+            REPORT_PDF, caption="../report/pdf.rst", category="Validation report"
+        ),
+    log:
+        "logs/report.log",
+    benchmark:
+        "logs/benchmarks/report.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        tables=lambda wildcards, input: Path(input.errors).parent,
+        spring=lambda wildcards, input: Path(input.histories[0]).parents[1],
+        references=REFERENCES,
+        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        folder=lambda wildcards, output: Path(output.page).parent,
+    shell:
+        "tread-validate report {input.study} --tables {params.tables} --spring {params.spring} "
+        "--references {params.references} --decks {params.decks} -o {params.folder} > {log} 2>&1"
