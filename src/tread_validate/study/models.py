@@ -274,7 +274,7 @@ class DeckSettings(Strict):
     """How the finite element decks are made."""
 
     element_size_mm: Positive = Field(1.0, description="edge of an element in the plane of the contact face")
-    layers: Annotated[int, Field(ge=2, le=64)] = Field(7, description="elements over the block's height")
+    layers: Annotated[int, Field(ge=2, le=64)] = Field(8, description="elements over the block's height")
     refinement: Annotated[FiniteFloat, Field(ge=1, le=10)] = Field(
         1.5, description="height of the layer at the mount over that of the layer at the contact face"
     )
