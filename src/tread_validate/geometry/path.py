@@ -1,0 +1,110 @@
+"""A block pass seen as geometry: where the foot of every column is at any time, where the road is, when they meet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..study import Case, Rig
+from .columns import Columns
+from .line import MountLine
+from .road import Road
+
+if TYPE_CHECKING:
+    from .block import WidthProfile
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MountMotion:
+    """Place and motion of mount points in the axle frame.
+
+    Attributes
+    ----------
+    x, y : arrays, m
+    theta : array, rad
+        Slope of the mount line; 0 in the middle of the patch, negative before it, positive after it.
+    velocity_x, velocity_y : arrays, m/s
+    angular_velocity : array, rad/s
+        d theta/dt.
+    """
+
+    x: Array
+    y: Array
+    theta: Array
+    velocity_x: Array
+    velocity_y: Array
+    angular_velocity: Array
+
+
+@dataclass(frozen=True)
+class Path:
+    """The motion of one block and its road. t = 0 is the first touch of the leading end, s = 0.
+
+    The foot of the column at s is at the arc ``first_touch_arc + speed t - columns.arc_offset(s)`` of `line`.
+
+    Attributes
+    ----------
+    line : MountLine
+    road : Road
+    columns : Columns
+    profile : WidthProfile
+        Plan shape of the block.
+    speed : float, m/s
+        Rate at which the arc grows: surface speed on the rig, belt speed along the belt on the tyre.
+    interference : float, m
+        Largest compression.
+    first_touch_arc : float, m
+        Arc at which the leading end's free face meets the road.
+    contact_duration : float, s
+        From the first touch until the last column's free face leaves the road. The rubber may let go earlier (it
+        relaxes) or slightly later (it is sheared): allow a margin.
+    """
+
+    line: MountLine
+    road: Road
+    columns: Columns
+    profile: WidthProfile
+    speed: float
+    interference: float
+    first_touch_arc: float
+    contact_duration: float
+
+    def mount(self, arc: ArrayLike) -> tuple[Array, Array, Array]:
+        """Return x, y (m) and theta (rad) of the mount line at the arcs (m)."""
+        return self.line.mount(arc)
+
+    def column_arc(self, s: ArrayLike, t: ArrayLike) -> Array:
+        """Return the arc of the columns at `s` (m) at the times `t` (s; before 0 too), broadcast, m."""
+        return self.first_touch_arc + self.speed * np.asarray(t, dtype=np.float64) - self.columns.arc_offset(s)
+
+    def at(self, s: ArrayLike, t: ArrayLike) -> MountMotion:
+        """Return place and motion of the mount points of the columns at `s` (m) at the times `t` (s), broadcast."""
+        arc = self.column_arc(s, t)
+        x, y, theta = self.line.mount(arc)
+        along = self.speed * self.line.speed_ratio
+        return MountMotion(
+            x, y, theta, along * np.cos(theta), along * np.sin(theta), self.speed * self.line.curvature(arc)
+        )
+
+    def free_face(self, s: ArrayLike, t: ArrayLike) -> tuple[Array, Array]:
+        """Return x, y (m) of the stress-free face of the columns at `s` (m) at the times `t` (s), broadcast."""
+        x, y, theta = self.line.mount(self.column_arc(s, t))
+        height = self.columns.column_height(s)
+        return x + height * np.sin(theta), y - height * np.cos(theta)
+
+    def indentation(self, s: ArrayLike, t: ArrayLike) -> Array:
+        """Return how deep the stress-free face would stand in the road, m; negative where it is clear of it."""
+        return -self.road.gap(*self.free_face(s, t))
+
+
+def path_of(case: Case) -> Path:
+    """Return the path of a case, rig or belt; raises `InputError` where the block cannot touch or is too deep."""
+    from .belt import belt_path
+    from .rig import rig_path
+
+    return rig_path(case) if isinstance(case.path, Rig) else belt_path(case)
