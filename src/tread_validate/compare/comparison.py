@@ -1,0 +1,199 @@
+"""One run against its reference: a row for every scalar and every history score."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..errors import InputError
+from ..history import History
+from .align import Pair, align, window
+from .iso18571 import SAMPLES as ISO_SAMPLES
+from .iso18571 import IsoRating, grade, iso18571
+from .metrics import relative_rms, sprague_geers
+from .quantities import HISTORIES, HISTORY_METRICS, SCALARS, SMALL_SHARE, ErrorType, HistoryMetric, Quantity, Scale
+from .rows import CANNOT_TELL, MetricRow, verdict
+from .scalars import Scalars, scalars
+
+Uncertainty = float | Mapping[str, float] | None
+Names = tuple[str, str, str]
+
+
+def compare(
+    reference: History,
+    predicted: History,
+    *,
+    case_id: str = "",
+    reference_source: str = "reference",
+    predicted_source: str = "predicted",
+    uncertainty: Uncertainty = None,
+    assumed: str = "",
+) -> tuple[MetricRow, ...]:
+    """Compare two histories of one pass.
+
+    Parameters
+    ----------
+    reference, predicted : History
+        Both on the clock whose zero is the first touch; nothing is shifted.
+    uncertainty : float, mapping or None
+        Relative uncertainty of the reference's forces, or by quantity name; None where it is not known.
+
+    Raises
+    ------
+    InputError
+        For a history without contact, one that ends in contact, and two whose contacts do not overlap.
+    """
+    limits = window(reference, predicted)
+    names = (case_id, reference_source, predicted_source)
+    a, b = scalars(reference), scalars(predicted)
+    rows = [_scalar_row(quantity, a, b, names, uncertainty) for quantity in SCALARS]
+    fine = align(reference, predicted, limits=limits)
+    coarse = align(reference, predicted, ISO_SAMPLES, limits)
+    for quantity in HISTORIES:
+        rows += _history_rows(quantity, fine, coarse, names, uncertainty)
+    return tuple(row.marked(assumed) for row in rows)
+
+
+def empty_rows(
+    case_id: str,
+    reference_source: str,
+    predicted_source: str,
+    status: str,
+    note: str,
+    *,
+    reference: Scalars | None = None,
+    predicted: Scalars | None = None,
+    assumed: str = "",
+) -> tuple[MetricRow, ...]:
+    """Return the rows of a comparison that cannot be made: every quantity and metric, without an error."""
+    a = reference.as_dict() if reference is not None else {}
+    b = predicted.as_dict() if predicted is not None else {}
+    rows = []
+    for quantity in SCALARS:
+        kind: ErrorType = "relative" if quantity.scale == "itself" else "absolute"
+        rows.append((quantity.name, "scalar", a.get(quantity.name), b.get(quantity.name), quantity.unit, kind))
+    for name in HISTORIES:
+        for metric in HISTORY_METRICS:
+            rows.append((name, metric.name, None, None, _unit(metric), metric.error_type))
+    return tuple(
+        MetricRow(
+            case_id, quantity_name, metric_name, reference_source, predicted_source, ref, pred, unit, None, error_type,
+            None, None, None, CANNOT_TELL, status, note, assumed,
+        )
+        for quantity_name, metric_name, ref, pred, unit, error_type in rows
+    )  # fmt: skip
+
+
+def scalar_row(
+    quantity: Quantity,
+    reference: float,
+    predicted: float,
+    scales: Mapping[str, float],
+    names: Names,
+    uncertainty: float | None,
+) -> MetricRow:
+    """Return the row of one scalar; `scales` holds the reference's scalars that tolerances are shares of.
+
+    `uncertainty` is the reference's relative uncertainty in the quantity; for one that is judged absolutely, relative
+    to its scale.
+    """
+    small = quantity.small is not None and abs(reference) < SMALL_SHARE * _scale(quantity.small, scales)
+    case_id, reference_source, predicted_source = names
+    if quantity.scale == "itself" and not small and reference != 0.0:
+        error = (predicted - reference) / reference
+        spread = None if uncertainty is None else uncertainty * (1.0 + abs(error))
+        tolerance, kind = quantity.tolerance, "relative"
+    else:
+        error = predicted - reference
+        if quantity.scale == "itself":
+            scale = _scale(quantity.small, scales) if quantity.small is not None else 0.0
+            tolerance = quantity.tolerance * SMALL_SHARE * scale
+            spread = None if uncertainty is None else uncertainty * abs(reference)
+        else:
+            scale = _scale(quantity.scale, scales)
+            tolerance = quantity.tolerance * scale
+            spread = None if uncertainty is None else uncertainty * scale
+        kind = "absolute"
+    note = f"small reference: judged in {quantity.unit}" if small and quantity.unit != "1" else ""
+    return MetricRow(
+        case_id, quantity.name, "scalar", reference_source, predicted_source, reference, predicted, quantity.unit, error,
+        kind, spread, tolerance, abs(error) <= tolerance, verdict(error, tolerance, spread), "current", note,
+    )  # type: ignore[arg-type]  # fmt: skip
+
+
+def _scalar_row(quantity: Quantity, a: Scalars, b: Scalars, names: Names, uncertainty: Uncertainty) -> MetricRow:
+    scales = a.as_dict()
+    value = _for(uncertainty, quantity.name)
+    if quantity.name == "late_sign_change" or (quantity.unit == "s" and not isinstance(uncertainty, Mapping)):
+        value = None if uncertainty is None else 0.0  # yes or no; times hardly depend on the mesh
+    if quantity.name == "net_tangential_impulse" and not isinstance(uncertainty, Mapping) and value is not None:
+        # the mesh error applies to the tangential force, not to the normal impulse that sets the scale
+        value *= a.tangential_to_normal_ratio
+    return scalar_row(quantity, scales[quantity.name], b.as_dict()[quantity.name], scales, names, value)
+
+
+def _history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertainty: Uncertainty) -> list[MetricRow]:
+    reference, predicted = fine.forces(quantity)
+    spread = _for(uncertainty, quantity)
+    values: dict[str, tuple[float, float, float, str]] = {}
+    notes: dict[str, str] = {}
+    try:
+        scale, rms = float(np.max(np.abs(reference))), relative_rms(reference, predicted)
+        values["relative_rms"] = (scale, rms * scale, rms, "")
+        sprague = sprague_geers(fine.time, reference, predicted)
+        pair = (float(np.sqrt(np.mean(reference**2))), float(np.sqrt(np.mean(predicted**2))))
+        values["sprague_geers_m"] = (*pair, sprague.magnitude, "")
+        values["sprague_geers_p"] = (*pair, sprague.phase, "")
+        values["sprague_geers_c"] = (*pair, sprague.comprehensive, "")
+    except InputError as error:
+        notes = {metric.name: str(error) for metric in HISTORY_METRICS}
+    try:
+        for name, score in _iso_scores(iso18571(*coarse.forces(quantity))).items():
+            values[name] = (1.0, score, score - 1.0, grade(score) if name == "iso18571_r" else "")
+    except InputError as error:
+        notes.update({metric.name: str(error) for metric in HISTORY_METRICS if metric.name.startswith("iso")})
+    rows = []
+    for metric in HISTORY_METRICS:
+        if metric.name not in values:
+            rows.append(
+                MetricRow(
+                    names[0], quantity, metric.name, names[1], names[2], None, None, _unit(metric), None,
+                    metric.error_type, None, metric.tolerance, None, CANNOT_TELL, "undefined", notes[metric.name],
+                )
+            )  # fmt: skip
+            continue
+        ref, pred, error_value, note = values[metric.name]
+        moved = None if spread is None else metric.sensitivity * spread
+        if moved is not None and metric.error_type == "relative":
+            moved *= 1.0 + abs(error_value)
+        rows.append(
+            MetricRow(
+                names[0], quantity, metric.name, names[1], names[2], ref, pred, _unit(metric), error_value,
+                metric.error_type, moved, metric.tolerance, abs(error_value) <= metric.tolerance,
+                verdict(error_value, metric.tolerance, moved), "current", note,
+            )
+        )  # fmt: skip
+    return rows
+
+
+def _iso_scores(rating: IsoRating) -> dict[str, float]:
+    return {
+        "iso18571_r": rating.overall,
+        "iso18571_corridor": rating.corridor,
+        "iso18571_phase": rating.phase,
+        "iso18571_magnitude": rating.magnitude,
+        "iso18571_slope": rating.slope,
+    }
+
+
+def _unit(metric: HistoryMetric) -> str:
+    return "1" if metric.error_type == "score" else "N"
+
+
+def _scale(name: Scale, scales: Mapping[str, float]) -> float:
+    return 1.0 if name == "one" else scales[name]
+
+
+def _for(uncertainty: Uncertainty, name: str) -> float | None:
+    return uncertainty.get(name) if isinstance(uncertainty, Mapping) else uncertainty
