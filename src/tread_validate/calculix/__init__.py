@@ -1,0 +1,1 @@
+"""CalculiX as a second engine for elastic blocks with Coulomb friction."""

@@ -1,0 +1,97 @@
+"""`tread-validate stimulus`: the excitation of a tyre by its tread pattern."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    study: Annotated[Path, typer.Argument(help="study file (YAML)")],
+    case_id: Annotated[str, typer.Option("--case", help="a belt case of the study")],
+    pitch: Annotated[Path, typer.Option("--pitch", help="pitch sequence (YAML): block lengths and gaps, rib by rib")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="folder for the results")],
+    variant: Annotated[
+        list[str] | None, typer.Option("--variant", help="model variant; the study's variants where left out")
+    ] = None,
+    history: Annotated[
+        list[str] | None,
+        typer.Option("--history", help="LABEL=FILE.csv: a block history of your own (FE, measured), any number"),
+    ] = None,
+    impulse_response: Annotated[
+        Path | None, typer.Option("--impulse-response", help="CSV time_s,to_normal,to_tangential")
+    ] = None,
+    transfer_function: Annotated[
+        Path | None, typer.Option("--transfer-function", help="CSV frequency_Hz and complex ratios to both forces")
+    ] = None,
+    to_hz: Annotated[float, typer.Option("--to", help="highest frequency of the spectrum, Hz")] = 1000.0,
+) -> None:
+    """Add up the forces of every block round the tyre: time signal, spectrum to 1 kHz, response of a belt or hub.
+
+    Example: tread-validate stimulus config/study.yaml --case belt-simplified-60c-0p2mm-16p7mps-creep0p3 \
+    --pitch examples/own_study/pitch.yaml -o results/stimulus
+    """
+    from .. import provenance, spring
+    from ..errors import InputError
+    from ..history import History
+    from ..stimulus import load_pitch_sequence, read_impulse_response, read_transfer_function, respond, superpose
+    from ..stimulus.blocks import belt_case, by_history, by_model
+    from ..stimulus.output import draw, write, write_summary
+    from ..study import load_study
+
+    loaded = load_study(study)
+    case = loaded.case(case_id)
+    if case.creep_ratio is None and not case.is_rig:
+        (case,) = spring.resolve_creep((case,))
+    case = belt_case(case)
+    sequence = load_pitch_sequence(pitch)
+    if impulse_response is not None and transfer_function is not None:
+        raise InputError("--transfer-function", "an impulse response too", "one of the two")
+    path = None
+    if impulse_response is not None:
+        path = read_impulse_response(impulse_response)
+    elif transfer_function is not None:
+        path = read_transfer_function(transfer_function)
+
+    sources = {}
+    for name in variant or loaded.model.spring.variants:
+        sources[name] = by_model(case, lambda sized, name=name: spring.run(sized, variant=name))
+    for item in history or ():
+        label, equals, file = item.partition("=")
+        if not equals or not label.replace("_", "").replace("-", "").isalnum():
+            raise InputError("--history", item, "LABEL=FILE.csv, the label of letters, digits, - and _")
+        if label in sources:
+            raise InputError("--history", f"label {label} again", "a label of its own")
+        sources[label] = by_history(case, History.read_csv(file), file)
+
+    assumed = "; ".join((*case.assumed(), *_marked(sequence.origin, sequence.name)))
+    stimuli = []
+    for label, history_of in sources.items():
+        notes = {
+            "case_id": case.case_id,
+            "producer": f"stimulus/{label}",
+            "version": provenance.version(),
+            "commit": provenance.commit(),
+            "pitch_sequence": sequence.name,
+            "pitch_sha256": provenance.sha256_file(pitch),
+            "study_digest": loaded.digest,
+            "assumed": assumed,
+        }
+        stimulus = superpose(sequence, case.speed, history_of, label=label, highest_frequency=to_hz, provenance=notes)
+        write(stimulus, None if path is None else respond(stimulus, path), output / label)
+        stimuli.append(stimulus)
+        typer.echo(
+            f"{label}: mean normal force {stimulus.mean_normal_force:.2f} N, mean tangential force "
+            f"{stimulus.mean_tangential_force:.3f} N, block passing "
+            + ", ".join(f"{rib} {rate:.2f} Hz" for rib, rate in stimulus.block_rates.items())
+        )
+    write_summary(stimuli, output / "summary.csv")
+    draw(stimuli, output / "stimulus.png", assumed)
+    if assumed:
+        typer.echo(f"assumed or synthetic inputs: {assumed}")
+
+
+def _marked(origin: str, name: str) -> tuple[str, ...]:
+    return (f"pitch sequence {name} ({origin})",) if origin in ("assumed", "synthetic") else ()
