@@ -1,0 +1,202 @@
+"""The block as a structured body in its own frame.
+
+The frame has its origin on the mount above the middle of the block; x points in the direction of travel, y away from
+the road, z across. Nodes come in layers from the face (layer 0) to the mount.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InputError
+from ...study import Block
+from ...units import DEG, MM
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class BodySettings:
+    """How finely a body is divided.
+
+    Attributes
+    ----------
+    face_size : float, m
+        Edge of an element in the plane of the face.
+    layers : int
+        Elements over the height.
+    refinement : float
+        Height of the layer at the mount over that of the layer at the face.
+    """
+
+    face_size: float = 1.0 * MM
+    layers: int = 8
+    refinement: float = 1.5
+
+
+@dataclass(frozen=True)
+class Body:
+    """Bricks between a face and a mount; a rectangle is halved by its plane of symmetry z = 0.
+
+    Attributes
+    ----------
+    nodes : (layers + 1) * n rows of (x, y, z), m
+        Stress-free positions in the block's frame, layer by layer, the face first.
+    elements : (m, 8) array of int
+        Corner nodes in the order of `element.CORNERS` with axes (towards the mount, z, x).
+    along : (n,) array, m
+        Place of the n nodes of a layer along the face, relative to the middle, positive in the direction of travel.
+    area : (n,) array, m2
+        Area of the face that each node stands for (of the half block where `half`).
+    knots : (k,) array, m
+        Places along the block at which the motion of the mount is given.
+    half : bool
+        Whether only z >= 0 is there.
+    """
+
+    nodes: Array
+    elements: Integers
+    along: Array
+    area: Array
+    knots: Array
+    layers: int
+    half: bool
+
+    @property
+    def nodes_per_layer(self) -> int:
+        """Number of nodes n in each layer."""
+        return self.along.size
+
+    @property
+    def face(self) -> Array:
+        """Stress-free positions of the face's nodes, (n, 3), m."""
+        return self.nodes[: self.nodes_per_layer]
+
+    @cached_property
+    def on_symmetry_plane(self) -> Integers:
+        """Nodes with z = 0 of a halved body."""
+        return np.flatnonzero(np.abs(self.nodes[:, 2]) < 1e-12) if self.half else np.zeros(0, dtype=np.int64)
+
+    @cached_property
+    def unused(self) -> Integers:
+        """Nodes that belong to no brick (a sipe at the very end of a block leaves some)."""
+        return np.setdiff1d(np.arange(self.nodes.shape[0]), self.elements)
+
+    def mount_shapes(self) -> Array:
+        """Return the (3 n, 2 k) displacement of the mount's nodes for unit displacement of each knot."""
+        n, k = self.along.size, self.knots.size
+        cell = np.clip(np.searchsorted(self.knots, self.along, side="right") - 1, 0, k - 2)
+        weight = (self.along - self.knots[cell]) / (self.knots[cell + 1] - self.knots[cell])
+        shapes = np.zeros((n, 3, 2, k))
+        for component in (0, 1):
+            shapes[np.arange(n), component, component, cell] = 1.0 - weight
+            shapes[np.arange(n), component, component, cell + 1] = weight
+        return shapes.reshape(3 * n, 2 * k)
+
+
+@dataclass(frozen=True)
+class FreeShape:
+    """Stress-free shape in the rolling direction.
+
+    Attributes
+    ----------
+    mount_curvature : float, 1/m
+        Of the mount, about an axle above the block; 0 is flat.
+    flat_face : bool
+        Face flat under a curved mount; otherwise it is parallel to the mount.
+    mount_ratio : float
+        Arc of the mount per arc on which columns are counted (below 1 on a wheel's ring).
+    """
+
+    mount_curvature: float = 0.0
+    flat_face: bool = False
+    mount_ratio: float = 1.0
+
+    def mount_arc(self, along: Array, height: float) -> Array:
+        """Return the arc along the mount (m) of the columns at `along` (m); columns stand square on the mount."""
+        if self.flat_face and self.mount_curvature > 0.0:
+            surface = 1.0 / self.mount_curvature + height
+            return np.asarray(np.arctan(along / surface) / self.mount_curvature)
+        return along * self.mount_ratio
+
+    def mount(self, along: Array, height: float) -> Array:
+        """Return (x, y) of the mount at the columns `along` (m), origin above the middle of the block, (n, 2), m."""
+        return _bent(self.mount_arc(along, height), self.mount_curvature)
+
+    def face(self, along: Array, height: float) -> Array:
+        """Return (x, y) of the face at the columns `along` (m), (n, 2), m."""
+        if self.flat_face or self.mount_curvature == 0.0:
+            return np.column_stack([along, np.full(along.size, -height)])
+        radius = 1.0 / self.mount_curvature + height
+        face = _bent(self.mount_arc(along, height) * self.mount_curvature * radius, 1.0 / radius)
+        return np.column_stack([face[:, 0], face[:, 1] - height])
+
+
+def make_body(block: Block, shape: FreeShape, settings: BodySettings) -> Body:
+    """Divide `block` into bricks; `InputError` for a body too coarse to have an inside."""
+    size = settings.face_size
+    length, width, height = block.length_mm * MM, block.width_mm * MM, block.height_mm * MM
+    half = block.shape == "rectangle"
+    if settings.layers < 2 or length / size < 2.5 or width / size < 2.5:
+        raise InputError("face size", f"{size / MM:g} mm, {settings.layers} layers", "a mesh with nodes inside")
+    distance, rubber = _columns(block, size)
+    parts = max(2, round((0.5 * width if half else width) / size))
+    across = np.linspace(0.0 if half else -0.5 * width, 0.5 * width, parts + 1)
+    ratio = settings.refinement ** (1.0 / (settings.layers - 1))
+    level = np.concatenate([[0.0], np.cumsum(ratio ** np.arange(settings.layers))])
+    level /= level[-1]
+
+    # s grows against travel; the middle of the block is at x = 0
+    z, s = (a.ravel() for a in np.meshgrid(across, distance, indexing="ij"))
+    along = 0.5 * length - s - z * np.tan(block.skew_deg * DEG)
+    face, mount = shape.face(along, height), shape.mount(along, height)
+    nodes = np.concatenate([np.column_stack([(1.0 - f) * face + f * mount, z]) for f in level])
+    count = along.size
+    quads, quad_area = _quads(across, distance, rubber)
+    elements = np.concatenate([_bricks(quads + k * count, count) for k in range(settings.layers)])
+    area = np.zeros(count)
+    np.add.at(area, quads.ravel(), np.repeat(0.25 * quad_area, 4))
+    knots = np.linspace(along.min(), along.max(), max(3, round(np.ptp(along) / size) + 1))
+    return Body(nodes, elements, along, area, knots, settings.layers, half)
+
+
+def _columns(block: Block, size: float) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the distances of the node columns from the leading end, and which spaces between them hold rubber."""
+    edges, solid = [0.0], []
+    for sipe in block.sipes:
+        edges += [sipe.position_mm * MM, (sipe.position_mm + sipe.width_mm) * MM]
+        solid += [True, False]
+    edges.append(block.length_mm * MM)
+    solid.append(True)
+    distance, rubber = [0.0], []
+    for begin, end, filled in zip(edges[:-1], edges[1:], solid, strict=True):
+        if end - begin < 1e-9:
+            continue
+        parts = max(1, round((end - begin) / size)) if filled else 1
+        distance += list(begin + (end - begin) * np.arange(1, parts + 1) / parts)
+        rubber += [filled] * parts
+    return np.array(distance), np.array(rubber)
+
+
+def _quads(across: Array, distance: Array, rubber: NDArray[np.bool_]) -> tuple[Integers, Array]:
+    """Return the face's quadrilaterals (corners z-, z+ by leading end first) and their areas, sipes left out."""
+    grid = np.arange(across.size * distance.size).reshape(across.size, distance.size)
+    corners = np.stack([grid[:-1, 1:], grid[:-1, :-1], grid[1:, 1:], grid[1:, :-1]], axis=-1)
+    area = np.diff(across)[:, None] * np.diff(distance)
+    return corners[:, rubber].reshape(-1, 4), area[:, rubber].ravel()
+
+
+def _bricks(quads: Integers, count: int) -> Integers:
+    """Stack bricks on face quadrilaterals: natural axes are (towards the mount, z, x), x running fastest."""
+    return np.hstack([quads, quads + count])
+
+
+def _bent(arc: Array, curvature: float) -> Array:
+    """Return (x, y) of points at arc lengths from the lowest point of a circle with its centre above, (n, 2)."""
+    angle = arc * curvature
+    return np.column_stack([arc * np.sinc(angle / np.pi), 0.5 * arc * angle * np.sinc(0.5 * angle / np.pi) ** 2])

@@ -1,0 +1,222 @@
+"""One contact problem: the forces on the face's nodes when a rigid road meets them, with dry friction.
+
+Unknowns are the relaxed displacements q = int E(t - s) dw/ds ds (m Pa) of the nodes; forces are S q. Sweeps of projected
+Gauss-Seidel visit the nodes in turn; a node that sticks where it should costs nothing, since its q is known.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from ...friction import kinetic_kernel
+
+Array = NDArray[np.float64]
+
+FREE, STICK, SLIP = 0, 1, 2
+
+
+@numba.njit(cache=True, error_model="numpy")
+def solve_contact(
+    stiffness: Array,
+    q: Array,
+    force: Array,
+    target: Array,
+    normal: Array,
+    area: Array,
+    before: NDArray[np.int64],
+    state: NDArray[np.int64],
+    stiffening: float,
+    dt: float,
+    static_coefficient: float,
+    code: int,
+    parameters: Array,
+    pressures: Array,
+    slip_speeds: Array,
+    table: Array,
+    tolerance: float,
+    most_sweeps: int,
+) -> int:
+    """Solve in place for `q`, `force` (n, 3) and `state` (n,); return the number of sweeps.
+
+    Parameters
+    ----------
+    stiffness : (3 n, 3 n) array, N/m per Pa
+    q : (n, 3) array, m Pa
+        First guess, and result; components x, y, z of the block's frame.
+    force : (n, 3) array, N
+        stiffness @ q of the first guess, and of the result: force of the road on the block.
+    target : (n, 3) array, m Pa
+        q of a node that touches and moves with the road.
+    normal : (n, 2) array
+        Unit normal of the road (x, y), towards the block.
+    area : (n,) array, m2
+    before : (n,) array of int
+        States at the end of the step before: a node that slipped sticks again only when its slip speed passes zero.
+    stiffening : float, Pa
+        dq/dw over the step of length `dt` in s.
+    tolerance : float, N
+        Largest change of a node's force in the last sweep.
+    """
+    n = q.shape[0]
+    a = np.empty((3, 3))
+    f = np.empty(3)
+    d = np.empty(3)
+    for sweep in range(most_sweeps):
+        largest = 0.0
+        for visit in range(n):
+            i = visit if sweep % 2 == 0 else n - 1 - visit
+            if area[i] == 0.0:
+                continue
+            nx, ny = normal[i, 0], normal[i, 1]
+            _local(stiffness, i, nx, ny, a)
+            f[0] = nx * force[i, 0] + ny * force[i, 1]
+            f[1] = ny * force[i, 0] - nx * force[i, 1]
+            f[2] = force[i, 2]
+            # how far the node is from moving with the road, in local axes
+            gx, gy = q[i, 0] - target[i, 0], q[i, 1] - target[i, 1]
+            g0 = nx * gx + ny * gy
+            g1 = ny * gx - nx * gy
+            g2 = q[i, 2] - target[i, 2]
+            stuck0 = f[0] - a[0, 0] * g0 - a[0, 1] * g1 - a[0, 2] * g2
+            stuck1 = f[1] - a[1, 0] * g0 - a[1, 1] * g1 - a[1, 2] * g2
+            stuck2 = f[2] - a[2, 0] * g0 - a[2, 1] * g1 - a[2, 2] * g2
+            pull = math.hypot(stuck1, stuck2)
+            pressure = max(stuck0, 0.0) / area[i]
+            if before[i] == SLIP:
+                limit = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, 0.0)
+                limit = min(limit, static_coefficient)
+            else:
+                limit = static_coefficient
+            if stuck0 > 0.0 and pull <= limit * stuck0:
+                state[i] = STICK
+                d[0], d[1], d[2] = -g0, -g1, -g2
+            else:
+                sliding = False
+                if stuck0 > 0.0 or state[i] != FREE:
+                    sliding = _slide(
+                        a, f, g0, g1, g2, area[i], stiffening, dt,
+                        code, parameters, pressures, slip_speeds, table, d,
+                    )  # fmt: skip
+                if sliding:
+                    state[i] = SLIP
+                else:
+                    _release(a, f, d)
+                    if g0 + d[0] < 0.0:
+                        # a free node would sink into the road: it touches, and slides there
+                        state[i] = SLIP
+                        _slide(
+                            a, f, g0, g1, g2, area[i], stiffening, dt,
+                            code, parameters, pressures, slip_speeds, table, d,
+                        )  # fmt: skip
+                    else:
+                        state[i] = FREE
+            dx, dy = nx * d[0] + ny * d[1], ny * d[0] - nx * d[1]
+            change = max(abs(dx), abs(dy), abs(d[2])) * a[0, 0]
+            if change > 0.0:
+                q[i, 0] += dx
+                q[i, 1] += dy
+                q[i, 2] += d[2]
+                _spread(stiffness, force, i, dx, dy, d[2])
+                largest = max(largest, change)
+        if largest < tolerance:
+            return sweep + 1
+    return most_sweeps
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _local(stiffness: Array, i: int, nx: float, ny: float, a: Array) -> None:
+    """Turn the node's own 3 x 3 stiffness into axes (normal, along, across)."""
+    j = 3 * i
+    xx, xy, yy = stiffness[j, j], stiffness[j, j + 1], stiffness[j + 1, j + 1]
+    xz, yz = stiffness[j, j + 2], stiffness[j + 1, j + 2]
+    a[0, 0] = nx * nx * xx + 2.0 * nx * ny * xy + ny * ny * yy
+    a[1, 1] = ny * ny * xx - 2.0 * nx * ny * xy + nx * nx * yy
+    a[0, 1] = nx * ny * (xx - yy) + (ny * ny - nx * nx) * xy
+    a[1, 0] = a[0, 1]
+    a[0, 2] = nx * xz + ny * yz
+    a[2, 0] = a[0, 2]
+    a[1, 2] = ny * xz - nx * yz
+    a[2, 1] = a[1, 2]
+    a[2, 2] = stiffness[j + 2, j + 2]
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _release(a: Array, f: Array, d: Array) -> None:
+    """Change of q that frees the node of all force: a d = -f (Cholesky of a 3 x 3 matrix)."""
+    l00 = math.sqrt(a[0, 0])
+    l10, l20 = a[1, 0] / l00, a[2, 0] / l00
+    l11 = math.sqrt(a[1, 1] - l10 * l10)
+    l21 = (a[2, 1] - l20 * l10) / l11
+    l22 = math.sqrt(a[2, 2] - l20 * l20 - l21 * l21)
+    y0 = -f[0] / l00
+    y1 = (-f[1] - l10 * y0) / l11
+    y2 = (-f[2] - l20 * y0 - l21 * y1) / l22
+    d[2] = y2 / l22
+    d[1] = (y1 - l21 * d[2]) / l11
+    d[0] = (y0 - l10 * d[1] - l20 * d[2]) / l00
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _slide(
+    a: Array,
+    f: Array,
+    g0: float,
+    g1: float,
+    g2: float,
+    area: float,
+    stiffening: float,
+    dt: float,
+    code: int,
+    parameters: Array,
+    pressures: Array,
+    slip_speeds: Array,
+    table: Array,
+    d: Array,
+) -> bool:
+    """One step towards the sliding solution of a node on the road; False where it would be pulled at.
+
+    The fixed point has the friction force opposite to the slip, of size mu(p, v) times the normal force: f = P(f - r s)
+    with r any stiffness and P the projection on to the friction disk, which is exact also where the node's tangential
+    stiffness differs between its two directions.
+    """
+    # put the node on the road first, its slip as it is
+    f0 = f[0] - a[0, 0] * g0
+    f1 = f[1] - a[1, 0] * g0
+    f2 = f[2] - a[2, 0] * g0
+    if f0 <= 0.0:
+        return False
+    mean = 0.5 * (a[1, 1] + a[2, 2]) if a[2, 2] < 1.5 * a[1, 1] else a[1, 1]
+    slip = math.hypot(g1, g2)
+    e1, e2 = f1 - mean * g1, f2 - mean * g2
+    length = math.hypot(e1, e2)
+    if length == 0.0:
+        d[0], d[1], d[2] = -g0, 0.0, 0.0
+        return True
+    # size of the slip: length - mean g - mu(p, v) N = 0 falls with g, so that a guarded Newton step is safe
+    pressure = f0 / area
+    to_speed = 1.0 / (stiffening * dt)
+    mu = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, slip * to_speed)
+    step = max(0.01 * slip, 1e-6 * length / mean)
+    ahead = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, (slip + step) * to_speed)
+    slope = min(-mean - f0 * (ahead - mu) / step, -0.5 * mean)
+    new = slip - (length - mean * slip - mu * f0) / slope
+    size = length - mean * min(max(new, 0.0), length / mean)
+    c1, c2 = size * e1 / length - f1, size * e2 / length - f2
+    determinant = a[1, 1] * a[2, 2] - a[1, 2] * a[1, 2]
+    d[0] = -g0
+    d[1] = (a[2, 2] * c1 - a[1, 2] * c2) / determinant
+    d[2] = (a[1, 1] * c2 - a[1, 2] * c1) / determinant
+    return True
+
+
+@numba.njit(cache=True, error_model="numpy", fastmath=True)
+def _spread(stiffness: Array, force: Array, i: int, dx: float, dy: float, dz: float) -> None:
+    """Add the forces that a change of one node's q makes everywhere (rows of the symmetric matrix)."""
+    flat = force.ravel()
+    r0, r1, r2 = stiffness[3 * i], stiffness[3 * i + 1], stiffness[3 * i + 2]
+    for j in range(flat.size):
+        flat[j] += r0[j] * dx + r1[j] * dy + r2[j] * dz

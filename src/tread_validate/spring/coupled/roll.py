@@ -1,0 +1,154 @@
+"""One pass of the coupled face: case in, nodal forces and history out."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InputError
+from ...friction import FrictionLaw, law
+from ...geometry import Path, path_of
+from ...material import PronySeries, prony_series
+from ...study import Block, Case
+from ...units import MM
+from .body import Body, BodySettings, FreeShape, make_body
+from .condense import FaceStiffness, condense
+from .march import march
+from .motion import free_shape, motion
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class CoupledSettings:
+    """How the coupled face is discretised.
+
+    Attributes
+    ----------
+    body : BodySettings
+    step : float, m
+        Travel per step while an edge of the contact moves over the face.
+    longest_step : float, m
+        Travel per step while the whole face stays down.
+    finite_strain : bool
+        Stiffen by the a-priori factors of logarithmic strain.
+    tolerance : float
+        Change of a node's force in the last sweep over the largest nodal force.
+    """
+
+    body: BodySettings = field(default_factory=BodySettings)
+    step: float = 1.0 * MM
+    longest_step: float = 8.0 * MM
+    finite_strain: bool = True
+    tolerance: float = 1e-3
+    most_sweeps: int = 200
+
+
+@dataclass(frozen=True)
+class FacePass:
+    """Everything the coupled face knows about a pass.
+
+    Attributes
+    ----------
+    time : (m,) array, s
+    force : (m, n, 3) array, N
+        Force of the road on the nodes, axle frame; of the half block where `body.half`.
+    displacement : (m, n, 3) array, m
+        Elastic displacement of the face's nodes in the block's frame.
+    state : (m, n) array of int
+        0 free, 1 sticking, 2 slipping.
+    sweeps : (m,) array of int
+    """
+
+    body: Body
+    time: Array
+    force: Array
+    displacement: Array
+    state: NDArray[np.int64]
+    sweeps: NDArray[np.int64]
+
+    @property
+    def copies(self) -> float:
+        """How many times the body stands in the block."""
+        return 2.0 if self.body.half else 1.0
+
+    @property
+    def normal_force(self) -> Array:
+        """N(t) of the whole block, N."""
+        return np.asarray(self.copies * self.force[:, :, 1].sum(axis=1))
+
+    @property
+    def tangential_force(self) -> Array:
+        """T(t) of the whole block, positive towards the leading edge, N."""
+        return np.asarray(-self.copies * self.force[:, :, 0].sum(axis=1))
+
+    @property
+    def slipping_fraction(self) -> Array:
+        """Slipping over touching area, 0..1."""
+        touching = (self.state > 0) @ self.body.area
+        return np.asarray(np.where(touching > 0, (self.state == 2) @ self.body.area / np.maximum(touching, 1e-30), 0.0))
+
+
+_BODIES: dict[tuple[Block, FreeShape, BodySettings, float], tuple[Body, FaceStiffness]] = {}
+
+
+def condensed(block: Block, shape: FreeShape, settings: BodySettings, nu: float) -> tuple[Body, FaceStiffness]:
+    """Return body and face stiffness, remembered for the life of the process."""
+    key = (block, shape, settings, nu)
+    if key not in _BODIES:
+        body = make_body(block, shape, settings)
+        _BODIES[key] = body, condense(body, nu)
+    return _BODIES[key]
+
+
+def roll(case: Case, settings: CoupledSettings | None = None, series: PronySeries | None = None,
+         friction: FrictionLaw | None = None) -> FacePass:
+    """Run one pass; `series` (at the case's temperature) and `friction` replace the case's own where given."""
+    settings = settings or CoupledSettings()
+    if case.creep_ratio is None:
+        raise InputError(f"case {case.case_id}: creep ratio", "none yet", "a resolved free-rolling case")
+    path = path_of(case)
+    shape = free_shape(path, case.block)
+    nu = case.compound.poissons_ratio
+    body, face = condensed(case.block, shape, settings.body, nu)
+    series = series or prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
+    friction = friction or law(case.friction, case.root)
+    moves = motion(path, shape, body, face, case.height, step_times(path, settings))
+    stretch = np.zeros(2)
+    force, displacement, state, sweeps = march(
+        moves.time, moves.origin, moves.angle, moves.unloaded, body.area, face.stiffness,
+        series.long_term_modulus, series.moduli, series.relaxation_times,
+        path.road.radius, path.speed * (1.0 + case.creep_ratio), stretch, friction.static_coefficient,
+        *friction.kernel_arguments, settings.tolerance, settings.most_sweeps,
+    )  # fmt: skip
+    return FacePass(body, moves.time, force, displacement, state, sweeps)
+
+
+def step_times(path: Path, settings: CoupledSettings) -> Array:
+    """Return the times of the steps, s: fine while the contact's edges move, longer while the whole face is down."""
+    extent = path.columns.extent
+    total = path.contact_duration * path.speed
+    lead = 2.0 * settings.step
+    edge = extent + max(0.0, _approach(path))
+    begin, end = -lead, total + 3.0 * MM
+    quiet = (edge, total - edge)
+    travel = [begin]
+    step = settings.step
+    while travel[-1] < end - 1e-9:
+        here = travel[-1]
+        if quiet[0] <= here < quiet[1] - settings.step:
+            step = min(step * 1.4, settings.longest_step, max(quiet[1] - here, settings.step))
+        else:
+            step = settings.step
+        travel.append(min(here + step, end) if here + step < end else end)
+    return np.array(travel) / path.speed
+
+
+def _approach(path: Path) -> float:
+    """Return the travel between the touch of a column and the middle of its compression, m."""
+    total = path.contact_duration * path.speed - path.columns.extent
+    corners = path.line.corners
+    return corners[0] - path.first_touch_arc if corners else 0.25 * total
