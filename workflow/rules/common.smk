@@ -22,7 +22,13 @@ except InputError as error:
 
 VARIANTS = list(study.model.spring.variants)
 ENGINE = study.model.engine
-STORE = f"{REFERENCES}/fe/{ENGINE}"
+MESH_ERRORS = f"{REFERENCES}/fe/mesh"
+# the mesh study: element size in the file name -> layers over the height, and the two cases it is made with
+MESH_LAYERS = {"2p0": 4, "1p0": 8, "0p5": 16}
+MESH_CASES = {
+    "rig": "rig-rectangle-22c-0p2mm-300rpm",
+    "belt": "belt-simplified-60c-0p2mm-16p7mps-creep0p3",
+}
 ENVIRONMENT = "../envs/tread_validate.yaml"
 REPORT_PAGE = f"{REPORTS}/index.html"
 REPORT_PDF = f"{REPORTS}/report.pdf"
@@ -32,8 +38,9 @@ wildcard_constraints:
     case=r"[a-z0-9-]+",
     variant=r"[a-z][a-z0-9_]*",
     size=r"[0-9]+p[0-9]+",
+    kind=r"rig|belt",
 
 
 def stale_histories(wildcards):
     listed = Path(checkpoints.stale_references.get().output[0]).read_text().split()
-    return expand(f"{RESULTS}/fe/{ENGINE}/{{case}}.csv", case=listed)
+    return expand(f"{RESULTS}/fe/embedded/{{case}}.csv", case=listed)

@@ -2,6 +2,7 @@
 # still matches and says which are stale or missing. `make reference` runs just those.
 checkpoint stale_references:
     input:
+        study=STUDY,
         decks=rules.decks.output.inp,
     output:
         f"{RESULTS}/fe/stale.txt",
@@ -10,11 +11,11 @@ checkpoint stale_references:
     conda:
         ENVIRONMENT
     params:
-        study=STUDY,
         decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
-        store=STORE,
+        references=REFERENCES,
     shell:
-        "tread-validate stale {params.study} --decks {params.decks} --store {params.store} -o {output} > {log} 2>&1"
+        "tread-validate stale {input.study} --decks {params.decks} --references {params.references} "
+        "-o {output} > {log} 2>&1"
 
 
 rule fe:
@@ -38,13 +39,15 @@ rule fe:
 rule reference:
     input:
         histories=stale_histories,
-        convergence=f"{REFERENCES}/fe/mesh_convergence.yaml",
+        convergence=[f"{MESH_ERRORS}/{kind}.yaml" for kind in MESH_CASES],
     log:
         "logs/reference.log",
     conda:
         ENVIRONMENT
     params:
-        store=STORE,
+        engine=ENGINE,
+        references=lambda wildcards, input: Path(input.convergence[0]).parents[2],
+        mesh=lambda wildcards, input: Path(input.convergence[0]).parent,
     shell:
-        "tread-validate file-references {input.histories} --convergence {input.convergence} "
-        "--store {params.store} 2>&1 | tee {log}"
+        "tread-validate file-references {input.histories} --engine {params.engine} --convergence {params.mesh} "
+        "--references {params.references} > {log} 2>&1"

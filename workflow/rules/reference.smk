@@ -11,5 +11,7 @@ rule references:
         "logs/benchmarks/references.tsv"
     conda:
         ENVIRONMENT
+    params:
+        folder=lambda wildcards, input: Path(input.package).parent,
     shell:
-        "tread-validate references {input.package} -o {output} > {log} 2>&1"
+        "tread-validate references {params.folder} -o {output} > {log} 2>&1"

@@ -20,6 +20,11 @@ EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_ENGINE = 0, 1, 2, 3
 VERBS = {
     "cases": "cases",
     "schema": "schema",
+    "stimulus": "stimulus",
+    "references": "references",
+    "stale": "stale",
+    "mesh-error": "mesh_error",
+    "file-references": "file_references",
 }
 
 

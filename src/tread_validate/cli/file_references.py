@@ -1,0 +1,52 @@
+"""`tread-validate file-references`: put finished FE runs into the reference store."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    histories: Annotated[list[Path] | None, typer.Argument(help="histories with their records beside them")] = None,
+    engine: Annotated[str, typer.Option("--engine", help="whose runs they are")] = "embedded",
+    references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
+    convergence: Annotated[
+        Path | None, typer.Option("--convergence", help="folder with rig.yaml and belt.yaml of the mesh study")
+    ] = None,
+) -> None:
+    """File runs under reference_data/fe/<engine>/, each with its record and the mesh error that remains.
+
+    Example: tread-validate file-references results/fe/embedded/*.csv --convergence reference_data/fe/mesh
+    """
+    import yaml
+
+    from ..errors import InputError
+    from ..files import read_text, write_bytes, write_text
+    from ..provenance import sha256_file
+    from ..reference import fe_path
+
+    errors = {}
+    for kind in ("rig", "belt") if convergence is not None else ():
+        errors[kind] = yaml.safe_load(read_text(Path(str(convergence)) / f"{kind}.yaml"))
+    filed = 0
+    for history in histories or []:
+        record_file = history.with_suffix(".yaml")
+        record = yaml.safe_load(read_text(record_file))
+        if not isinstance(record, dict):
+            raise InputError(record_file, type(record).__name__, "a record: a mapping of keys")
+        digest = sha256_file(history)
+        if record.get("history_sha256") != digest:
+            raise InputError(record_file, "another checksum", f"history_sha256 {digest[:12]}... of {history.name}")
+        case_id = history.stem
+        record["case_id"] = case_id
+        study = errors.get(case_id.partition("-")[0])
+        if study is not None:
+            record["mesh_error"] = study["mesh_error"]
+            record["mesh_error_from"] = f"three meshes of {study['case_id']}, {study['method']}"
+        target = fe_path(references, engine, case_id)
+        write_bytes(target, history.read_bytes())
+        write_text(target.with_suffix(".yaml"), yaml.safe_dump(record, sort_keys=False))
+        filed += 1
+    typer.echo(f"{filed} runs of engine {engine} filed under {references / 'fe' / engine}")

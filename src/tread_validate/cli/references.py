@@ -1,0 +1,26 @@
+"""`tread-validate references`: is the reference data what its package says?"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    folder: Annotated[Path, typer.Argument(help="folder with datapackage.yaml")],
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="write the list of tables to this file")] = None,
+) -> None:
+    """Check every reference table against its schema and checksum.
+
+    Example: tread-validate references reference_data
+    """
+    from ..files import write_text
+    from ..reference import validate_package
+
+    names = validate_package(folder)
+    lines = "".join(f"{name}: valid\n" for name in names)
+    if output is not None:
+        write_text(output, lines)
+    typer.echo(lines, nl=False)
