@@ -14,6 +14,7 @@ rule tables:
         ),
         decks=rules.decks.output.inp,
         references=REFERENCE_FILES,
+        package=rules.references.input.package,
         checked=rules.references.output,
     output:
         errors=f"{RESULTS}/tables/errors.csv",
@@ -27,7 +28,7 @@ rule tables:
         ENVIRONMENT
     params:
         spring=lambda wildcards, input: Path(input.histories[0]).parents[1],
-        references=REFERENCES,
+        references=lambda wildcards, input: Path(input.package).parent,
         decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
         folder=lambda wildcards, output: Path(output.errors).parent,
     shell:

@@ -5,6 +5,8 @@ rule report:
         errors=rules.tables.output.errors,
         histories=rules.tables.input.histories,
         decks=rules.decks.output.mesh,
+        package=rules.references.input.package,
+        references=REFERENCE_FILES,
     output:
         page=report(
             REPORT_PAGE, caption="../report/page.rst", category="Validation report"
@@ -21,7 +23,7 @@ rule report:
     params:
         tables=lambda wildcards, input: Path(input.errors).parent,
         spring=lambda wildcards, input: Path(input.histories[0]).parents[1],
-        references=REFERENCES,
+        references=lambda wildcards, input: Path(input.package).parent,
         decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
         folder=lambda wildcards, output: Path(output.page).parent,
     shell:
