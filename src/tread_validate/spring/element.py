@@ -1,0 +1,268 @@
+"""One element's pass through the contact: impact, stick, slip, stick again, release (section 4 of the paper).
+
+Forces are per unit of face area: pressure p = F_r n/A_s and shear q = F_l n/A_s, so that one history serves elements
+of any width. Between two nodes of the record the solver takes sub-steps of the node step over a power of two; an
+event (slip begins, slip ends, release) is narrowed down to the node step over 4096.
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from .inputs import Grip, Memory, Motion, Rubber
+from .kinematics import foot, sliding, sticking
+from .memory import LEVELS, STAGE, TICKS
+from .slip import kinetic, slip_stage
+
+Array = NDArray[np.float64]
+
+# columns of the record
+PRESSURE, SHEAR, TOUCHING, SLIPPING = 0, 1, 2, 3
+"""Pa, Pa (positive like lambda), 0 or 1, 0 or 1."""
+INTEGRALS = 4
+"""Columns 4..7: time integrals of columns 0..3; 8..11: integrals of those."""
+DELTA, LAG, SLIP_SPEED, FRICTION = 12, 13, 14, 15
+"""Radial and longitudinal length (m), slip speed (m/s, >= 0), traction of the road on the
+rubber (Pa, positive like lambda; with slip it differs from the spring's by the lumped mass's inertia)."""
+COLUMNS = 16
+
+STICK, SLIP, GONE = 0, 1, 2
+MOST_EVENTS = 12
+
+
+@numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "nsz", "contract"})
+def _remember(weights: Array, memory: Array, rate0: float, rate1: float, increment: float, fresh: Array) -> float:
+    """Write the memory after a step to `fresh` and return its sum."""
+    total = 0.0
+    for i in range(memory.size):
+        value = weights[0, i] * memory[i] + weights[1, i] * rate0 + weights[2, i] * rate1 + weights[3, i] * increment
+        fresh[i] = value
+        total += value
+    return total
+
+
+@numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "nsz", "contract"})
+def _fading(weights: Array, memory: Array) -> float:
+    """Return what is left of the memory after a step without input."""
+    total = 0.0
+    for i in range(memory.size):
+        total += weights[0, i] * memory[i]
+    return total
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _accumulate(integrals: Array, dt: float, p0: float, q0: float, p1: float, q1: float, slips: float) -> None:
+    """Add one sub-step with linear p and q to the integrals and their integrals."""
+    start = (p0, q0, 1.0, slips)
+    end = (p1, q1, 1.0, slips)
+    for j in range(4):
+        integrals[4 + j] += dt * integrals[j] + dt * dt * (start[j] / 3.0 + end[j] / 6.0)
+        integrals[j] += 0.5 * dt * (start[j] + end[j])
+
+
+@numba.njit(cache=True, error_model="numpy")
+def run_element(
+    motion: Motion,
+    rubber: Rubber,
+    grip: Grip,
+    memory: Memory,
+    height: float,
+    arc_at_zero: float,
+    first_tick: int,
+    corners: NDArray[np.int64],
+    tolerance: float,
+    record: Array,
+) -> int:
+    """Follow one element and write its record.
+
+    Parameters
+    ----------
+    height : float, m
+        Stress-free height of the element.
+    arc_at_zero : float, m
+        Arc of the element's foot at t = 0.
+    first_tick : int
+        First touch, in node steps / 4096 from t = 0.
+    corners : (n,) array
+        Ticks, in order, that no sub-step may straddle (the path's curvature jumps there).
+    tolerance : float, m
+        Error of lambda allowed in a slip sub-step.
+    record : (nodes, 16) array
+        Row k is for t = k dt; zero on entry. See the column names above.
+
+    Returns
+    -------
+    int
+        Tick of the release; -1 if the element still touches at the last node.
+    """
+    n = rubber.moduli.size
+    nodes = record.shape[0]
+    dt_node = memory.step
+    dt_tick = dt_node / TICKS
+    modulus, shear_ratio, mass = rubber.long_term_modulus, rubber.shear_ratio, rubber.mass
+    radial, longitudinal = np.zeros(n), np.zeros(n)
+    fresh_radial, fresh_longitudinal = np.empty(n), np.empty(n)
+    form_r, form_l = np.empty(4), np.empty(4)
+    integrals = np.zeros(8)
+
+    tick = first_tick
+    at = foot(motion, arc_at_zero + motion.speed * tick * dt_tick)
+    delta, c, lag_rate, _slope, _drift = sliding(motion, at, 0.0)
+    _d, lag, delta_rate, lag_rate = sticking(motion, at, c)
+    u, u_rate = height - delta, -delta_rate
+    total = 0.0
+    for i in range(n):  # what the rounding of the first tick leaves
+        radial[i] = rubber.moduli[i] * u
+        total += radial[i]
+    p, q = (modulus * u + total) / height, 0.0
+    slip_speed, direction, mode = 0.0, 0.0, STICK
+    level, events, corner = 0, 0, 0
+    while corner < corners.size and corners[corner] <= tick:
+        corner += 1
+    if tick % TICKS == 0:
+        k = tick // TICKS
+        record[k, PRESSURE], record[k, TOUCHING], record[k, DELTA] = p, 1.0, delta
+
+    while mode != GONE:
+        node_end = (tick // TICKS + 1) * TICKS
+        if node_end >= nodes * TICKS:
+            return -1
+        stop = node_end
+        if corner < corners.size and corners[corner] < stop:
+            stop = corners[corner]
+        while (TICKS >> level) > stop - tick:
+            level += 1
+        ticks = TICKS >> level
+        dt = ticks * dt_tick
+        arc = arc_at_zero + motion.speed * (tick + ticks) * dt_tick
+        at = foot(motion, arc)
+        weights = memory.weights[level]
+        last_chance = level == LEVELS - 1
+        was_slipping = 1.0 if mode == SLIP else 0.0
+        if mode == STICK:
+            c_new = (
+                c
+                + (motion.road_speed * motion.road_curvature if motion.road_curvature > 0.0 else motion.road_speed) * dt
+            )
+            delta_new, lag_new, delta_rate, lag_rate_new = sticking(motion, at, c_new)
+            u_new, u_rate_new = height - delta_new, -delta_rate
+            p_new = modulus * u_new + _remember(weights[0], radial, u_rate, u_rate_new, u_new - u, fresh_radial)
+            q_new = modulus * lag_new + _remember(
+                weights[0], longitudinal, lag_rate, lag_rate_new, lag_new - lag, fresh_longitudinal
+            )
+            p_new /= height
+            q_new *= shear_ratio / height
+            slip_new = 0.0
+            released = not p_new > 0.0
+            breaks = False
+            if not released and abs(q_new) > grip.static_coefficient * p_new:
+                # where the law's kinetic coefficient at rest exceeds the static one, no slip can start below it
+                breaks = abs(q_new) > kinetic(grip, p_new, 0.0) * p_new
+            if (released or breaks) and not last_chance and events < MOST_EVENTS:
+                level += 1
+                continue
+            if released:
+                mode = GONE
+            elif breaks and events < MOST_EVENTS:
+                mode, direction = SLIP, 1.0 if q_new > 0.0 else -1.0
+                events += 1
+            grows = True
+        else:
+            half = STAGE * dt
+            at_stage = foot(motion, arc - motion.speed * (1.0 - STAGE) * dt)
+            form_r[0], form_l[0] = _fading(weights[1], radial), _fading(weights[1], longitudinal)
+            sums = memory.sums[level, 1]
+            form_r[0] += sums[0] * u_rate
+            form_l[0] += sums[0] * lag_rate
+            form_r[1], form_r[2], form_r[3] = sums[1], sums[2], u
+            form_l[1], form_l[2], form_l[3] = sums[1], sums[2], lag
+            first = slip_stage(
+                motion, rubber, grip, at_stage, height, direction, half, lag, mass * lag_rate, lag_rate, form_r, form_l
+            )
+            form_r[0], form_l[0] = _fading(weights[0], radial), _fading(weights[0], longitudinal)
+            sums = memory.sums[level, 0]
+            form_r[0] += sums[0] * u_rate
+            form_l[0] += sums[0] * lag_rate
+            form_r[1], form_r[2] = sums[1], sums[2]
+            form_l[1], form_l[2] = sums[1], sums[2]
+            explicit = (1.0 - STAGE) * dt
+            second = slip_stage(
+                motion,
+                rubber,
+                grip,
+                at,
+                height,
+                direction,
+                half,
+                lag + explicit * first[1],
+                mass * lag_rate + explicit * (mass * (first[1] - lag_rate) / half),
+                first[1],
+                form_r,
+                form_l,
+            )
+            _ok, lag_rate_new, lag_new, p_new, q_new, slip_new, u_rate_new, delta_new, _push = second
+            u_new = height - delta_new
+            error = half * abs(second[1] - first[1])
+            released = not p_new > 0.0
+            ends = slip_new < 0.0
+            unsound = not (first[0] and second[0]) or error > tolerance
+            if (unsound or released or ends) and not last_chance:
+                level += 1
+                continue
+            _remember(weights[0], radial, u_rate, u_rate_new, u_new - u, fresh_radial)
+            _remember(weights[0], longitudinal, lag_rate, lag_rate_new, lag_new - lag, fresh_longitudinal)
+            c_new = sliding(motion, at, lag_new)[1]
+            if released:
+                mode = GONE
+            elif ends:
+                events += 1
+                limit = max(grip.static_coefficient, kinetic(grip, p_new, 0.0)) * p_new
+                if abs(q_new) <= limit or events >= MOST_EVENTS:
+                    mode = STICK
+                    _d, _l, delta_rate, lag_rate_new = sticking(motion, at, c_new)
+                    u_rate_new = -delta_rate
+                else:
+                    direction = -direction
+                slip_new = 0.0
+            grows = error < 0.25 * tolerance
+        if mode == GONE:
+            # the force reaches zero within this last sub-step
+            _accumulate(integrals, dt, p, q, 0.0, q, was_slipping)
+            p, q, slip_speed = 0.0, 0.0, 0.0
+        else:
+            _accumulate(integrals, dt, p, q, p_new, q_new, was_slipping)
+            p, q, slip_speed = p_new, q_new, slip_new
+            u, u_rate, lag, lag_rate, delta, c = u_new, u_rate_new, lag_new, lag_rate_new, delta_new, c_new
+            radial, fresh_radial = fresh_radial, radial
+            longitudinal, fresh_longitudinal = fresh_longitudinal, longitudinal
+        tick += ticks
+        if corner < corners.size and tick >= corners[corner]:
+            corner += 1
+        if grows and level > 0:
+            level -= 1
+        if tick % TICKS == 0:
+            k = tick // TICKS
+            events = 0
+            record[k, PRESSURE], record[k, SHEAR] = p, q
+            record[k, INTEGRALS : INTEGRALS + 8] = integrals
+            if mode != GONE:
+                record[k, TOUCHING], record[k, SLIPPING] = 1.0, 1.0 if mode == SLIP else 0.0
+                record[k, DELTA], record[k, LAG], record[k, SLIP_SPEED] = delta, lag, slip_speed
+                record[k, FRICTION] = q
+                if mode == SLIP:
+                    record[k, FRICTION] = direction * kinetic(grip, p, slip_speed) * p
+    _rest(integrals, tick, dt_node, record)
+    return tick
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _rest(integrals: Array, tick: int, dt: float, record: Array) -> None:
+    """Fill the integrals of the nodes after the release."""
+    first = tick // TICKS if tick % TICKS == 0 else tick // TICKS + 1
+    for k in range(first, record.shape[0]):
+        waited = k * dt - tick * (dt / TICKS)
+        for j in range(4):
+            record[k, INTEGRALS + j] = integrals[j]
+            record[k, INTEGRALS + 4 + j] = integrals[4 + j] + waited * integrals[j]
