@@ -100,6 +100,7 @@ def scalar_row(
     """
     small = quantity.small is not None and abs(reference) < SMALL_SHARE * _scale(quantity.small, scales)
     case_id, reference_source, predicted_source = names
+    kind: ErrorType
     if quantity.scale == "itself" and not small and reference != 0.0:
         error = (predicted - reference) / reference
         spread = None if uncertainty is None else uncertainty * (1.0 + abs(error))
@@ -117,9 +118,9 @@ def scalar_row(
         kind = "absolute"
     note = f"small reference: judged in {quantity.unit}" if small and quantity.unit != "1" else ""
     return MetricRow(
-        case_id, quantity.name, "scalar", reference_source, predicted_source, reference, predicted, quantity.unit, error,
-        kind, spread, tolerance, abs(error) <= tolerance, verdict(error, tolerance, spread), "current", note,
-    )  # type: ignore[arg-type]  # fmt: skip
+        case_id, quantity.name, "scalar", reference_source, predicted_source, reference, predicted, quantity.unit,
+        error, kind, spread, tolerance, abs(error) <= tolerance, verdict(error, tolerance, spread), "current", note,
+    )  # fmt: skip
 
 
 def _scalar_row(quantity: Quantity, a: Scalars, b: Scalars, names: Names, uncertainty: Uncertainty) -> MetricRow:

@@ -26,8 +26,8 @@ class MetricRow:
     Attributes
     ----------
     reference, predicted : float or None
-        In `unit`. For a history score: ``relative_rms``: largest \\|reference\\| and RMSE; ``sprague_geers_*``: the two root
-        mean squares; ``iso18571_*``: 1 and the score.
+        In `unit`. For a history score: ``relative_rms``: largest \\|reference\\| and RMSE;
+        ``sprague_geers_*``: the two root mean squares; ``iso18571_*``: 1 and the score.
     error : float or None
         Signed; (predicted - reference)/reference, or predicted - reference in `unit`, or score - 1.
     reference_uncertainty : float or None

@@ -57,8 +57,8 @@ def validate_package(folder: Path | str) -> tuple[str, ...]:
         report = package.validate()
     except FrictionlessException as error:
         raise InputError(base / DESCRIPTOR, one_line(str(error)), "a valid data package") from None
-    for error in report.errors:
-        raise InputError(base / DESCRIPTOR, one_line(error.message), "a valid data package")
+    if report.errors:
+        raise InputError(base / DESCRIPTOR, one_line(report.errors[0].message), "a valid data package")
     for task in report.tasks:
         # a wrong cell also changes the checksum: name the cell first
         faults = sorted(task.errors, key=lambda item: item.type in ("hash-count", "byte-count"))

@@ -1,0 +1,39 @@
+"""`tread-validate deck`: write ABAQUS/Explicit decks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    study: Annotated[Path, typer.Argument(help="study file (YAML)")],
+    case: Annotated[str | None, typer.Option("--case", help="id of one case (see `tread-validate cases`)")] = None,
+    every: Annotated[bool, typer.Option("--all", help="every case of the study")] = False,
+    output: Annotated[Path, typer.Option("-o", "--output", help="folder; each case gets one of its own in it")] = Path(
+        "fe_inputs"
+    ),
+) -> None:
+    """Write the deck of one case, or of all: ID.inp, ID-constant-friction.inp, vfric.f and mesh.vtu.
+
+    Example: tread-validate deck config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm -o fe_inputs
+    """
+    from .. import deck
+    from ..errors import InputError
+    from ..study import load_study
+
+    if (case is None) == (not every):
+        raise InputError("deck", "both --case and --all" if every else "neither --case nor --all", "one of the two")
+    loaded = load_study(study)
+    cases = (loaded.case(case),) if case is not None else loaded.cases()
+    if any(one.creep_ratio is None for one in cases):
+        from ..spring import resolve_creep
+
+        cases = resolve_creep(cases)
+    for one in cases:
+        written = deck.write(one, output / one.case_id)
+        typer.echo(
+            f"{output / one.case_id}: {written.elements.shape[0]} elements, pass {1e3 * written.pass_time:.4g} ms"
+        )

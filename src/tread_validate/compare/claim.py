@@ -1,0 +1,181 @@
+"""A published statement, its computed counterpart, and whether they agree."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from ..reference import PublishedValue
+from ..study import Case, LoadedStudy
+from .regression import Coefficient, mean_interval
+from .rows import AGREES, CANNOT_TELL, DISAGREES, Verdict
+from .runs import Runs, SourceRun
+
+CLAIM_COLUMNS = (
+    "claim_id", "section", "statement", "quantity", "unit", "published", "published_low", "published_high",
+    "spread_kind", "source", "case_ids", "computed", "error", "error_type", "verdict", "status", "note", "assumed",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Computed:
+    """What was computed for a claim, in the published unit.
+
+    Attributes
+    ----------
+    value : float or None
+        None where it cannot be computed; `note` then says why and `status` how it came about.
+    case_ids : tuple of str
+        The runs behind it.
+    """
+
+    value: float | None
+    case_ids: tuple[str, ...] = ()
+    status: str = "current"
+    note: str = ""
+    assumed: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One published number next to one computed number."""
+
+    published: PublishedValue
+    source: str
+    computed: Computed
+    low: float | None
+    high: float | None
+    error: float | None
+    error_type: str
+    verdict: Verdict
+    note: str
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """All that a claim may be computed from.
+
+    Attributes
+    ----------
+    cases : tuple of Case
+        With their creep ratios resolved.
+    runs : mapping
+        By (source, case id).
+    coefficients : tuple of Coefficient
+        Of every source, published ones included.
+    free_rolling_creep : mapping
+        Own free-rolling creep ratio by (source, case id), where a source has searched one.
+    rig_peaks : mapping
+        Measured mean peak normal force in N by case id; empty until measured ones are imported.
+    """
+
+    study: LoadedStudy
+    cases: tuple[Case, ...]
+    runs: Runs
+    published: Mapping[str, PublishedValue]
+    coefficients: tuple[Coefficient, ...]
+    free_rolling_creep: Mapping[tuple[str, str], float]
+    rig_peaks: Mapping[str, float]
+
+    def belt_case(self, *, measured: bool, creep_ratio: float | None = None) -> Case | None:
+        """Return the first belt case on the measured or simplified profile; free rolling where no creep is given."""
+        for case in self.cases:
+            if case.is_rig or is_measured(case) != measured:
+                continue
+            if creep_ratio is None:
+                fits = case.free_rolling
+            else:
+                given = None if case.free_rolling else case.creep_ratio
+                fits = given is not None and abs(given - creep_ratio) < 1e-9
+            if fits:
+                return case
+        return None
+
+    def belt_cases(self) -> tuple[Case, ...]:
+        """Return every tyre case."""
+        return tuple(case for case in self.cases if not case.is_rig)
+
+    def rig_cases(self) -> tuple[Case, ...]:
+        """Return every rig case."""
+        return tuple(case for case in self.cases if case.is_rig)
+
+    def run(self, source: str, case: Case) -> SourceRun:
+        """Return a source's run of a case, missing where there is none."""
+        return self.runs.get(
+            (source, case.case_id), SourceRun(source, case.case_id, "missing", "no run of this source")
+        )
+
+    def mean(self, source: str, shape: str, name: str) -> Coefficient | None:
+        """Return a source's mean regression coefficient for a block shape."""
+        for row in self.coefficients:
+            if (row.source, row.shape, row.coefficient, row.set) == (source, shape, name, "mean"):
+                return row
+        return None
+
+
+Compute = Callable[[Evidence, str], Computed]
+
+
+def nothing(note: str, status: str = "missing", cases: Sequence[str] = ()) -> Computed:
+    """Return a claim without a computed value, and why."""
+    return Computed(None, tuple(cases), status, note)
+
+
+def is_measured(case: Case) -> bool:
+    """Tell whether a tyre case runs on a measured trace."""
+    return case.path.kind == "measured_belt"
+
+
+def judge(published: PublishedValue, source: str, computed: Computed) -> Claim:
+    """Compare a computed value with what the published one stands for.
+
+    The published interval decides: ``sd`` and ``range`` are first turned into the 95 % interval of the mean (four and
+    two values), and when that is wider than the value itself nothing can be told. ``exists`` asks for more than the
+    lower bound. A value without an interval has to be met to four digits.
+    """
+    low, high, note = interval(published)
+    value, target = computed.value, published.value
+    error, kind = _error(value, target)
+    note = "; ".join(part for part in (computed.note, note) if part)
+    if value is None:
+        return Claim(published, source, computed, low, high, error, kind, CANNOT_TELL, note)
+    if _too_wide(published, low, high):
+        note = "; ".join(part for part in (note, "published spread too wide to tell") if part)
+        return Claim(published, source, computed, low, high, error, kind, CANNOT_TELL, note)
+    if low is None or high is None:
+        if target is None:
+            return Claim(published, source, computed, low, high, error, kind, CANNOT_TELL, note)
+        met = abs(value - target) <= 5e-4 * abs(target)
+    elif published.spread_kind == "exists":
+        met = low < value <= high
+    else:
+        slack = 1e-9 * max(abs(low), abs(high))
+        met = low - slack <= value <= high + slack
+    return Claim(published, source, computed, low, high, error, kind, AGREES if met else DISAGREES, note)
+
+
+def interval(published: PublishedValue) -> tuple[float | None, float | None, str]:
+    """Return the interval that a computed value is held against, and a word on it."""
+    low, high, value = published.low, published.high, published.value
+    if published.section.endswith("Table 1") and value is not None and low is not None and high is not None:
+        if published.spread_kind == "sd":
+            ends = mean_interval(value, 0.5 * (high - low), 4)
+            return *ends, "95 % interval of the published mean of 4"
+        if published.spread_kind == "range":
+            ends = mean_interval(value, (high - low) / 2.0**0.5, 2)
+            return *ends, "95 % interval of the published mean of 2"
+    return low, high, ""
+
+
+def _too_wide(published: PublishedValue, low: float | None, high: float | None) -> bool:
+    if published.spread_kind not in ("sd", "range") or published.value is None or low is None or high is None:
+        return False
+    return high - low > 2.0 * abs(published.value)
+
+
+def _error(value: float | None, target: float | None) -> tuple[float | None, str]:
+    if value is None or target is None:
+        return None, "absolute"
+    if target == 0.0 or target == 1.0:
+        return value - target, "absolute"
+    return (value - target) / target, "relative"

@@ -1,0 +1,58 @@
+"""Every published number with its computed counterpart and a verdict, or the reason why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from . import claims_belt, claims_rig
+from .claim import Claim, Compute, Computed, Evidence, judge
+from .claims_inputs import INPUTS
+from .claims_study import STUDY
+
+NOT_COMPARED = "not_compared"
+
+
+def published_claims(evidence: Evidence, sources: Sequence[str]) -> tuple[Claim, ...]:
+    """Return the claims in the order of the paper; one that depends on a run has a row for every source.
+
+    Parameters
+    ----------
+    sources : sequence of str
+        Sources with runs of their own (``spring:paper``, ``fe:embedded``, ...).
+    """
+    claims = []
+    for item in evidence.published.values():
+        if item.comparability == "context":
+            claims.append(judge(item, "", Computed(None, status=NOT_COMPARED, note=item.comparison)))
+            continue
+        found = False
+        for source, compute in _computations(item.id, sources):
+            claims.append(judge(item, source, compute(evidence, source)))
+            found = True
+        if not found:
+            claims.append(judge(item, "", Computed(None, status=NOT_COMPARED, note=item.comparison)))
+    return tuple(claims)
+
+
+def _computations(claim_id: str, sources: Sequence[str]) -> Iterator[tuple[str, Compute]]:
+    """Yield who computes a claim and how."""
+    if claim_id in INPUTS:
+        yield "study", INPUTS[claim_id]
+    elif claim_id in STUDY:
+        yield "study", STUDY[claim_id]
+    elif claim_id in claims_rig.REGRESSIONS:
+        published = ("fe:published",) if claim_id == "temperature_overestimate" else ("rig:published", "fe:published")
+        for source in (*published, *sources):
+            yield source, claims_rig.REGRESSIONS[claim_id]
+    elif claim_id in claims_rig.TABLE_1:
+        for source in sources:
+            yield source, claims_rig.TABLE_1[claim_id]
+    elif claim_id in claims_belt.SPRING:
+        for source in sources:
+            if source.startswith("spring:"):
+                yield source, claims_belt.SPRING[claim_id]
+    else:
+        compute = claims_belt.RUNS.get(claim_id) or claims_rig.RUNS.get(claim_id)
+        for source in sources if compute is not None else ():
+            assert compute is not None
+            yield source, compute
