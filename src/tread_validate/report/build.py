@@ -1,0 +1,151 @@
+"""From tables and histories to the report's files."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..files import write_text
+from ..study import load_study
+from . import figures
+from .baseline import baseline_section
+from .cases import case_views
+from .content import Figures, Item, Paragraph, Report, Section
+from .extra import ladder_section
+from .histories import HistoryStore, load_histories
+from .html import render
+from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
+from .marks import Marks
+from .palette import looks
+from .pdf import write_pdf
+from .results import claims_table, differences_table, ensemble_table, table1
+from .summary import CAVEAT, LEAD, summary
+from .tables import read_tables
+from .widgets import browser, heatmap, scatter
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where a report takes its data from, and where it goes."""
+
+    tables: Path
+    spring: Path
+    reference: Path
+    decks: Path
+    out: Path
+    baseline_delta: Path | None = None
+    ladder: Path | None = None
+
+
+def build_report(
+    study_path: Path | str,
+    tables_dir: Path | str,
+    spring_dir: Path | str,
+    reference_dir: Path | str,
+    decks_dir: Path | str,
+    out_dir: Path | str,
+    baseline_delta: Path | str | None = None,
+    ladder_dir: Path | str | None = None,
+) -> Report:
+    """Write ``index.html``, ``report.pdf``, ``tables/`` and ``figures/`` below `out_dir`.
+
+    Parameters
+    ----------
+    study_path : path
+        The study file, for title, notes, materials and geometry.
+    tables_dir : path
+        The comparison's tables (``cases.csv``, ``errors.csv``, ...); the report shows them and computes no metric.
+    spring_dir, reference_dir : path
+        Histories as ``<variant>/<case_id>.csv`` and ``<engine>/<case_id>.csv``.
+    decks_dir : path
+        Decks as ``<case_id>/mesh.vtu``, for the mesh sketch; may be missing.
+    baseline_delta : path, optional
+        The table that ``tread-validate check`` wrote.
+    ladder_dir : path, optional
+        Tables of the model ladder.
+
+    Raises
+    ------
+    InputError
+        For a missing table or column, a wrong study or a damaged history.
+    """
+    places = Places(
+        Path(tables_dir),
+        Path(spring_dir),
+        Path(reference_dir),
+        Path(decks_dir),
+        Path(out_dir),
+        None if baseline_delta is None else Path(baseline_delta),
+        None if ladder_dir is None else Path(ladder_dir),
+    )
+    report = compose(Path(study_path), places)
+    write_text(places.out / "index.html", render(report))
+    write_pdf(report, places.out / "report.pdf")
+    _copy_tables(places)
+    return report
+
+
+def compose(study_path: Path, places: Places) -> Report:
+    """Read everything, draw the figures into ``out/figures`` and return the report's content."""
+    study = load_study(study_path)
+    tables = read_tables(places.tables)
+    marks = Marks(tables.assumed)
+    views = case_views(tables.cases)
+    histories = load_histories(tables, HistoryStore(places.spring, places.reference))
+    look = looks(tables.sources("fe"), tables.sources("spring"))
+    browse, data = browser(tables, views, histories, look, marks)
+    heat, data["heat"] = heatmap(tables, views, marks)
+    points, data["scatter"] = scatter(tables, views, look, marks)
+    drawn = figures.Studio(study, tables, views, histories, look, marks, places.decks, places.out / "figures")
+    delta, moved = baseline_section(places.baseline_delta, marks)
+    sensitivity = sensitivity_table(tables)
+    results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
+    results += [sensitivity] if sensitivity is not None else []
+    sections = [
+        Section("summary", "How far can the model be trusted?", (summary(tables, marks, moved),)),
+        Section("results", "Results", tuple(results)),
+        Section(
+            "table1",
+            "Speed and temperature",
+            (table1(tables, marks), *_figures(drawn.regressions()), differences_table(tables, marks)),
+        ),
+        Section("claims", "Published statements", (claims_table(tables, marks),)),
+        Section("cases", "Case browser", (browse,), page_only=True),
+        Section("heatmaps", "Errors over the factor grid", (heat, *_figures(drawn.heat(), pdf=True))),
+        Section("scatter", "Predicted against reference", (points, *_figures(drawn.scatter(), pdf=True))),
+        delta,
+        Section("forces", "Force histories and peaks, as in the paper", _figures(drawn.forces())),
+        Section("contact", "Pressure on the contact face", _figures(drawn.contact())),
+        Section("material", "Compound and friction", _figures(drawn.material())),
+        Section("geometry", "Belt, rig and mesh", _figures(drawn.geometry())),
+        ladder_section(places.ladder, marks),
+        inputs_section(tables, marks),
+        provenance_section(tables),
+    ]
+    return Report(
+        title="Tread-block validation report",
+        subtitle=study.model.title,
+        lead=(*LEAD, CAVEAT),
+        notes=study.model.notes,
+        sections=tuple(section for section in sections if section is not None and section.items),
+        stamp=stamp(tables),
+        page_data=data,
+    )
+
+
+def _figures(drawn: tuple[figures.Drawn, ...], pdf: bool = False) -> tuple[Item, ...]:
+    """Group figures; those that could not be drawn leave their reason in words."""
+    found: list[Item] = []
+    shown = tuple(item.figure for item in drawn if item.figure is not None)
+    if shown:
+        found.append(Figures(shown, pdf_only=pdf))
+    found += [Paragraph(item.reason, tone="mute") for item in drawn if item.figure is None]
+    return tuple(found)
+
+
+def _copy_tables(places: Places) -> None:
+    target = places.out / "tables"
+    target.mkdir(parents=True, exist_ok=True)
+    for path in sorted(places.tables.glob("*.csv")):
+        shutil.copyfile(path, target / path.name)

@@ -1,0 +1,108 @@
+"""Still versions of the page's heat maps and scatter plot, for the PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
+
+from .. import wording
+from ..cases import CaseView, facets
+from ..content import Mark
+from ..palette import Look
+from ..tables import Tables, number
+from .style import WIDTH, Drawn, draw
+
+RAMP = LinearSegmentedColormap.from_list("error", ["#2f7fb5", "#ffffff", "#d9662b"])
+
+
+def heat(
+    folder: Path, tables: Tables, views: tuple[CaseView, ...], pair: tuple[str, str], marks: tuple[Mark, ...]
+) -> Drawn:
+    """Draw the peak normal force's error of one model over the factor grid."""
+    frame = tables.errors
+    own = frame[
+        (frame["predicted_source"] == pair[0])
+        & (frame["reference_source"] == pair[1])
+        & (frame["quantity"] == "peak_normal_force")
+    ]
+    values = dict(zip(own["case_id"], map(number, own["error"]), strict=True))
+    known = [abs(value) for value in values.values() if value is not None]
+    names = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
+    if not known:
+        return Drawn(None, f"{names}: no current reference, so there is no error to draw.")
+    limit = max(known)
+    rows = [(facet, label, cells) for facet in facets(views) for label, cells in facet.rows]
+    across = max(len(cells) for _, _, cells in rows)
+
+    def paint(axes: Axes) -> None:
+        grid = np.full((len(rows), across), np.nan)
+        labels = []
+        for i, (facet, label, cells) in enumerate(rows):
+            labels.append(f"{facet.title}: {label}")
+            for j, view in enumerate(cells):
+                value = values.get(view.case_id) if view is not None else None
+                if value is not None:
+                    grid[i, j] = value
+                text = "n/a" if value is None else wording.percent(value)
+                axes.text(j, i, f"{facet.columns[j]}\n{text}" if view is not None else "", ha="center", va="center", fontsize=6)
+        axes.imshow(grid, cmap=RAMP, vmin=-limit, vmax=limit, aspect="auto")
+        axes.set_xticks([])
+        axes.set_yticks(np.arange(len(rows)), labels, fontsize=6)
+        axes.grid(visible=False)
+        axes.tick_params(length=0)
+
+    size = (1.5 * WIDTH, 0.32 * len(rows) + 0.4)
+    key = f"heat-{pair[0]}-{pair[1]}".replace(":", "-")
+    return draw(folder, key, f"Error of the peak normal force, {names}", "", paint, marks, size, wide=True)
+
+
+def scatter(
+    folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: str, marks: tuple[Mark, ...]
+) -> Drawn:
+    """Draw predicted against reference with the ensemble's bias and two standard deviations."""
+    frame = tables.errors
+    own = frame[(frame["metric"] == "scalar") & (frame["quantity"] == quantity)]
+    pairs = list(dict.fromkeys(zip(own["predicted_source"], own["reference_source"], strict=True)))
+    points: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    for pair in pairs:
+        rows = own[(own["predicted_source"] == pair[0]) & (own["reference_source"] == pair[1])]
+        both = zip(map(number, rows["reference"]), map(number, rows["predicted"]), strict=True)
+        found = [(abs(x), abs(y)) for x, y in both if x and y and (x > 0) == (y > 0)]
+        if found:
+            points[(str(pair[0]), str(pair[1]))] = found
+    if not points:
+        return Drawn(None, f"{wording.quantity(quantity)}: no current reference to compare with.")
+
+    def paint(axes: Axes) -> None:
+        every = np.array([point for found in points.values() for point in found])
+        ends = np.array([0.85 * every.min(), 1.18 * every.max()])
+        axes.plot(ends, ends, color="#000", lw=0.9)
+        for pair, found in points.items():
+            look = looks[pair[0]]
+            stats = tables.ensemble[
+                (tables.ensemble["group"] == "all")
+                & (tables.ensemble["quantity"] == quantity)
+                & (tables.ensemble["metric"] == "scalar")
+                & (tables.ensemble["predicted_source"] == pair[0])
+                & (tables.ensemble["reference_source"] == pair[1])
+            ]
+            bias = number(stats["bias"].iloc[0]) if len(stats) else None
+            sigma = number(stats["model_scatter"].iloc[0]) if len(stats) else None
+            if bias is not None:
+                axes.plot(ends, bias * ends, color=look.color, lw=1.2, ls="--")
+                if sigma is not None:
+                    spread = np.exp(2.0 * sigma)
+                    axes.fill_between(ends, bias * ends / spread, bias * ends * spread, color=look.color, alpha=0.15, lw=0)
+            x, y = np.array(found).T
+            label = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
+            axes.plot(x, y, look.marker, ms=4, color=look.color, mec="white", mew=0.5, label=label)
+        unit = str(own["unit"].iloc[0])
+        axes.set(xscale="log", yscale="log", xlabel=f"reference, {unit}", ylabel=f"predicted, {unit}")
+        axes.legend()
+
+    caption = "Line: equal; dashed: bias δ; shaded: bias times exp(±2σ)."
+    return draw(folder, f"scatter-{quantity.replace('_', '-')}", wording.quantity(quantity), caption, paint, marks)

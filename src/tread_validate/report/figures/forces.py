@@ -1,0 +1,102 @@
+"""Force histories (the paper's Figs. 5, 14, 16) and peak forces against speed (Fig. 6)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from matplotlib.axes import Axes
+
+from ...history import History
+from .. import wording
+from ..cases import CaseView
+from ..content import Mark
+from ..histories import thin
+from ..palette import BLUE, GREEN, VERMILION, Look
+from ..tables import Tables, number
+from .style import Drawn, draw
+
+Runs = tuple[tuple[str, Mapping[str, History]], ...]
+
+
+def history_panel(
+    folder: Path,
+    key: str,
+    title: str,
+    caption: str,
+    runs: Runs,
+    looks: Mapping[str, Look],
+    force: str,
+    marks: tuple[Mark, ...],
+) -> Drawn:
+    """Draw normal or tangential force of one or two cases, every source over each other.
+
+    `runs` holds a name and the histories of each case; the second case is drawn paler.
+    """
+
+    def paint(axes: Axes) -> None:
+        for index, (name, histories) in enumerate(runs):
+            for source, history in histories.items():
+                look = looks[source]
+                keep = thin(history)
+                values = history.normal_force if force == "normal" else history.tangential_force
+                label = wording.source(source) + (f", {name}" if name else "")
+                width, alpha = (1.6, 1.0) if index == 0 else (1.3, 0.45)
+                axes.plot(
+                    1e3 * history.time[keep], values[keep], linestyle=look.line, color=look.color, lw=width, alpha=alpha, label=label
+                )
+        axes.axhline(0.0, color="#57606a", lw=0.7)
+        axes.set(xlabel="time from first touch, ms", ylabel=f"{force} force, N")
+        axes.legend(loc="best")
+
+    return draw(folder, key, title, caption, paint, marks)
+
+
+def peaks_panel(
+    folder: Path,
+    tables: Tables,
+    looks: Mapping[str, Look],
+    chosen: tuple[CaseView, ...],
+    shape: str,
+    temperature: str,
+    marks: tuple[Mark, ...],
+) -> Drawn:
+    """Draw peak normal force against speed for one shape and temperature: one colour per interference."""
+    peaks = {
+        (str(row.source), str(row.case_id)): number(row.peak_normal_force_N) for row in tables.peaks.itertuples(index=False)
+    }
+    depths = list(dict.fromkeys(view.levels["interference_mm"] for view in chosen))
+    colors = dict(zip(depths, (GREEN, BLUE, VERMILION, *["#57606a"] * len(depths)), strict=False))
+
+    def paint(axes: Axes) -> None:
+        for source, look in looks.items():
+            for depth in depths:
+                points = [
+                    (number(view.row["speed_m_s"]), peaks.get((source, view.case_id)))
+                    for view in chosen
+                    if view.levels["interference_mm"] == depth
+                ]
+                known = sorted((x, y) for x, y in points if x is not None and y is not None)
+                if known:
+                    axes.plot(
+                        [x for x, _ in known],
+                        [y for _, y in known],
+                        linestyle=look.line,
+                        marker=look.marker,
+                        ms=4,
+                        lw=1.1,
+                        color=colors[depth],
+                    )
+        for depth in depths:
+            axes.plot([], [], color=colors[depth], label=f"{depth} mm")
+        for source, look in looks.items():
+            axes.plot([], [], color="#57606a", linestyle=look.line, marker=look.marker, ms=4, label=wording.source(source))
+        axes.set(xlabel="surface speed, m/s", ylabel="peak normal force, N")
+        axes.set_ylim(bottom=0)
+        axes.legend(ncols=2, loc="best")
+
+    title = f"Peak normal force against speed, {shape}, {temperature} °C"
+    caption = (
+        "As the paper's Fig. 6, whose values are not published. Colour: interference; line and marker: source."
+    )
+    return draw(folder, f"peaks-{shape}-{temperature}c".replace(" ", "-"), title, caption, paint, marks)

@@ -1,0 +1,68 @@
+"""Moduli of the compound (the paper's Fig. 1) and friction coefficient (its Fig. 4)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ...friction import law
+from ...material import prony_series, surrogate_modulus
+from ...study import Compound, FractionalZener, Friction
+from ...units import MPA
+from ..content import Mark
+from ..palette import BLACK, BLUE, GREEN, PURPLE, VERMILION
+from .style import Drawn, draw
+
+PRESSURES = (0.08e6, 0.2e6, 0.4e6, 1.0e6)  # Pa
+
+
+def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple[Mark, ...]) -> Drawn:
+    """Draw storage and loss modulus against frequency, with the data where they are a law."""
+    series = prony_series(compound, root)
+    low, high = compound.fit.band_rad_s if hasattr(compound, "fit") else (0.25, 2500.0)
+    w = np.geomspace(0.1 * low, 10.0 * high, 241)
+
+    def paint(axes: Axes) -> None:
+        if isinstance(compound, FractionalZener):
+            data = np.geomspace(low, high, 29)
+            modulus = surrogate_modulus(compound, data)
+            axes.plot(data, modulus.real / MPA, "o", ms=3.5, color=BLACK, mfc="none", label="E′, data")
+            axes.plot(data, modulus.imag / MPA, "s", ms=3.5, color=BLACK, mfc="none", label="E″, data")
+        axes.plot(w, series.storage_modulus(w) / MPA, color=BLUE, label=f"E′, {series.moduli.size}-term Prony series")
+        axes.plot(w, series.loss_modulus(w) / MPA, "--", color=VERMILION, label="E″, Prony series")
+        axes.axvspan(low, high, color="#eef1f4", zorder=0)
+        axes.set(xscale="log", yscale="log", xlabel="angular frequency, rad/s", ylabel="modulus, MPa")
+        axes.set_title(f"at {compound.data_temperature_degC:g} °C", loc="left")
+        axes.legend()
+
+    title = f"Storage and loss modulus, compound {name}"
+    caption = (
+        f"As the paper's Fig. 1. Shaded: the band of the data, {low:g} to {high:g} rad/s at "
+        f"{compound.data_temperature_degC:g} °C; outside it the series extrapolates. Long-term modulus "
+        f"{series.long_term_modulus / MPA:.3g} MPa, instantaneous {series.instantaneous_modulus / MPA:.3g} MPa."
+    )
+    return draw(folder, f"moduli-{name}", title, caption, paint, marks)
+
+
+def friction(folder: Path, name: str, friction_law: Friction, root: Path, marks: tuple[Mark, ...]) -> Drawn:
+    """Draw the kinetic coefficient against slip speed at several pressures."""
+    rule = law(friction_law, root)
+    speed = np.geomspace(1e-4, 20.0, 241)
+
+    def paint(axes: Axes) -> None:
+        for pressure, color, style in zip(PRESSURES, (GREEN, BLUE, BLACK, VERMILION), (":", "--", "-", "-."), strict=True):
+            values = rule.kinetic(np.full_like(speed, pressure), speed)
+            axes.plot(speed, values, style, color=color, label=f"{pressure / MPA:g} MPa")
+        axes.axhline(rule.static_coefficient, color=PURPLE, lw=1.0)
+        axes.text(1.1e-4, rule.static_coefficient, " static", color=PURPLE, va="bottom", fontsize=7.5)
+        axes.set(xscale="log", xlabel="slip speed, m/s", ylabel="coefficient of friction", ylim=(0, None))
+        axes.legend(title="pressure", title_fontsize=7.5)
+
+    title = f"Friction coefficient, law {name}"
+    caption = (
+        f"As the paper's Fig. 4 and Eq. (5); kind: {friction_law.kind.replace('_', ' ')}. Below its least slip speed "
+        "and least pressure the law is held constant."
+    )
+    return draw(folder, f"friction-{name}", title, caption, paint, marks)

@@ -1,0 +1,215 @@
+"""Which figures a report has, and of which cases."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...history import History
+from ...study import Case, LoadedStudy, MeasuredBelt, Rig
+from ..cases import CaseView
+from ..content import Mark
+from ..marks import Marks
+from ..palette import Look
+from ..results import regression_sources
+from ..tables import Tables
+from . import contact, errors, forces, geometry, material, regressions
+from .style import Drawn
+
+
+@dataclass(frozen=True)
+class Studio:
+    """Draws the figures of one report into `folder`."""
+
+    study: LoadedStudy
+    tables: Tables
+    views: tuple[CaseView, ...]
+    histories: Mapping[str, Mapping[str, History]]
+    looks: Mapping[str, Look]
+    marks: Marks
+    decks: Path
+    folder: Path
+
+    def regressions(self) -> tuple[Drawn, ...]:
+        """Draw coefficients and residuals."""
+        frame = self.tables.regression
+        found = []
+        for name in ("a_v", "a_theta"):
+            own = self.marks.of_column(frame.loc[frame["coefficient"] == name, "assumed"])
+            found.append(
+                regressions.coefficients(self.folder, self.tables, regression_sources(self.tables), name, own)
+            )
+        for name in ("a_v", "a_theta"):
+            rows = self.tables.regression_residuals
+            own = self.marks.of_column(rows.loc[rows["coefficient"] == name, "assumed"])
+            found.append(regressions.residuals(self.folder, self.tables, self.looks, name, own))
+        return tuple(found)
+
+    def heat(self) -> tuple[Drawn, ...]:
+        """Draw the still heat map of every model."""
+        frame = self.tables.errors
+        marks = self.marks.of_column(frame["assumed"])
+        pairs = dict.fromkeys(zip(map(str, frame["predicted_source"]), map(str, frame["reference_source"]), strict=True))
+        return tuple(errors.heat(self.folder, self.tables, self.views, pair, marks) for pair in pairs)
+
+    def scatter(self) -> tuple[Drawn, ...]:
+        """Draw the still scatter plots."""
+        marks = self.marks.of_column(self.tables.errors["assumed"])
+        return tuple(
+            errors.scatter(self.folder, self.tables, self.looks, quantity, marks)
+            for quantity in ("peak_normal_force", "peak_positive_tangential_force")
+        )
+
+    def forces(self) -> tuple[Drawn, ...]:
+        """Draw the paper's Figs. 5, 14, 16 and 6 where the study has such cases."""
+        return (*self._figure5(), *self._belts(), *self._peaks())
+
+    def _figure5(self) -> tuple[Drawn, ...]:
+        """Parallelogram at 300 rpm and 0.2 mm, at both temperatures: the case nearest to that for each."""
+        rig = [view for view in self.views if view.row["path"] in self._paths(Rig)]
+        if not rig:
+            return ()
+        wanted = {"shape": "parallelogram", "speed_rpm": 300.0, "interference_mm": 0.2}
+        temperatures = list(dict.fromkeys(view.levels["temperature_degC"] for view in rig))[:2]
+        chosen = [
+            max(
+                (view for view in rig if view.levels["temperature_degC"] == level),
+                key=lambda view: sum(_same(view.row.get(key), value) for key, value in wanted.items()),
+            )
+            for level in temperatures
+        ]
+        runs = tuple(
+            (f"{view.levels['temperature_degC']} °C", self.histories.get(view.case_id, {})) for view in chosen
+        )
+        label = chosen[0].label.replace(f" · {chosen[0].levels['temperature_degC']} °C", "")
+        return self._pair("rig-histories", f"Rig: {label}", "As the paper's Fig. 5.", runs, tuple(chosen))
+
+    def _belts(self) -> tuple[Drawn, ...]:
+        found: list[Drawn] = []
+        for name, number in ((MeasuredBelt, "14"), (None, "16")):
+            names = self._paths(name) if name is not None else self._paths(None) - self._paths(Rig) - self._paths(MeasuredBelt)
+            views = [view for view in self.views if view.row["path"] in names]
+            if not views:
+                continue
+            view = views[0]
+            runs = (("", self.histories.get(view.case_id, {})),)
+            key = f"belt-histories-{view.row['path']}".replace("_", "-")
+            found += self._pair(key, f"Tyre belt: {view.label}", f"As the paper's Fig. {number}.", runs, (view,))
+        return tuple(found)
+
+    def _pair(self, key: str, label: str, caption: str, runs: forces.Runs, views: tuple[CaseView, ...]) -> tuple[Drawn, ...]:
+        if not any(histories for _, histories in runs):
+            return (Drawn(None, f"{label}: no histories to draw."),)
+        marks = self.marks.of(*(view.assumed for view in views))
+        words = f"{label}. {caption}" + (" Paler lines: the warmer case." if len(runs) > 1 else "")
+        return tuple(
+            forces.history_panel(
+                self.folder, f"{key}-{force}", f"{force.capitalize()} force", words, runs, self.looks, force, marks
+            )
+            for force in ("normal", "tangential")
+        )
+
+    def _peaks(self) -> tuple[Drawn, ...]:
+        rig = [view for view in self.views if view.row["path"] in self._paths(Rig)]
+        grids: dict[tuple[str, str], list[CaseView]] = {}
+        for view in rig:
+            grids.setdefault((str(view.row["shape"]), view.levels["temperature_degC"]), []).append(view)
+        return tuple(
+            forces.peaks_panel(
+                self.folder,
+                self.tables,
+                self.looks,
+                tuple(members),
+                shape,
+                temperature,
+                self.marks.of(*(view.assumed for view in members)),
+            )
+            for (shape, temperature), members in grids.items()
+            if len({view.levels["speed"] for view in members}) > 1
+        )
+
+    def contact(self) -> tuple[Drawn, ...]:
+        """Draw the pressure on the face in mid-contact, for one case of every path."""
+        return tuple(
+            contact.pressure(self.folder, case, label, self._of(case)) for label, case in self._one_per_path().items()
+        )
+
+    def material(self) -> tuple[Drawn, ...]:
+        """Draw moduli and friction of everything that the cases use."""
+        model, root = self.study.model, self.study.root
+        compounds = dict.fromkeys(str(view.row.get("compound", "")) for view in self.views)
+        laws = dict.fromkeys(str(view.row.get("friction", "")) for view in self.views)
+        found = [
+            material.moduli(self.folder, name, model.compounds[name], root, self._input(f"compound {name}"))
+            for name in compounds
+            if name in model.compounds
+        ]
+        found += [
+            material.friction(self.folder, name, model.friction_laws[name], root, self._input(f"friction law {name}"))
+            for name in laws
+            if name in model.friction_laws
+        ]
+        return tuple(found)
+
+    def geometry(self) -> tuple[Drawn, ...]:
+        """Draw belt, rig and meshes."""
+        cases = {case.path_name: case for case in reversed(self._cases())}
+        belts = {name: case for name, case in reversed(cases.items()) if not isinstance(case.path, Rig)}
+        rigs = [case for case in cases.values() if isinstance(case.path, Rig)]
+        found: list[Drawn] = []
+        if belts:
+            marks = self.marks.of(*(f"path {name} ({case.path.origin})" for name, case in belts.items() if _made_up(case)))
+            found += [
+                geometry.belt_heights(self.folder, belts, marks),
+                geometry.belt_curvature(self.folder, belts, marks),
+            ]
+            first = next(iter(belts.values()))
+            found.append(geometry.belt_sketch(self.folder, first, self._input(f"path {first.path_name}")))
+        found += [geometry.rig_sketch(self.folder, case, self._input(f"path {case.path_name}")) for case in rigs[:1]]
+        blocks = {case.block_name: case for case in reversed(self._cases())}
+        for name, case in reversed(blocks.items()):
+            file = self.decks / case.case_id / "mesh.vtu"
+            title = f"Mesh of block {name.replace('_', ' ')}"
+            found.append(geometry.mesh(self.folder, file, title, self._input(f"block {name}")))
+        return tuple(found)
+
+    def _cases(self) -> tuple[Case, ...]:
+        return self.study.cases()
+
+    def _one_per_path(self) -> dict[str, Case]:
+        labels = {view.case_id: view.label for view in self.views}
+        creeps = {view.case_id: view.row["creep_percent"] for view in self.views}
+        chosen: dict[tuple[str, str], Case] = {}
+        for case in self._cases():
+            middle = chosen.get((case.path_name, case.block_name))
+            if middle is None or (case.is_rig and abs(case.interference - 2e-4) < abs(middle.interference - 2e-4)):
+                chosen[(case.path_name, case.block_name)] = case
+        found = {}
+        for case in chosen.values():
+            creep = creeps.get(case.case_id)
+            if case.creep_ratio is None:
+                case = case.with_creep(0.01 * float(creep)) if isinstance(creep, int | float) else case.with_creep(0.0)
+            found[labels.get(case.case_id, case.case_id)] = case
+        return found
+
+    def _paths(self, kind: type | None) -> set[str]:
+        paths = self.study.model.paths
+        return {name for name, path in paths.items() if kind is None or isinstance(path, kind)}
+
+    def _input(self, name: str) -> tuple[Mark, ...]:
+        """Return the mark of one input, if it is assumed or synthetic."""
+        return tuple(mark for mark in self.marks.all() if mark.text.startswith(f"{name} ("))
+
+    def _of(self, case: Case) -> tuple[Mark, ...]:
+        return self.marks.of("; ".join(case.assumed()))
+
+
+def _same(found: object, wanted: object) -> bool:
+    if isinstance(wanted, float) and isinstance(found, int | float):
+        return abs(found - wanted) < 1e-6 * abs(wanted)
+    return found == wanted
+
+
+def _made_up(case: Case) -> bool:
+    return case.path.origin in ("assumed", "synthetic")

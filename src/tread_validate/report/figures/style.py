@@ -1,0 +1,90 @@
+"""One look for every figure: size, fonts, axes, files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure as Canvas
+
+from ...files import atomic_path
+from ..content import Figure, Mark
+
+WIDTH, HEIGHT = 4.7, 3.2  # inches: legible on a phone, two abreast on a desk
+RC = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9.0,
+    "axes.titlesize": 9.0,
+    "axes.labelsize": 9.0,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.8,
+    "axes.edgecolor": "#57606a",
+    "axes.grid": True,
+    "grid.color": "#e6e9ec",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.5,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "tread_validate",
+    "path.simplify": True,
+    "path.simplify_threshold": 0.3,
+}
+DPI = 150
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A figure, or in words why there is none."""
+
+    figure: Figure | None
+    reason: str = ""
+
+
+@contextmanager
+def styled() -> Iterator[None]:
+    """Draw with the report's settings and nobody else's."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(RC)
+        yield
+
+
+def panel(width: float = WIDTH, height: float = HEIGHT) -> tuple[Canvas, Axes]:
+    """Return a canvas with one pair of axes."""
+    canvas = Canvas(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(canvas)
+    return canvas, canvas.add_subplot()
+
+
+def draw(
+    folder: Path,
+    key: str,
+    title: str,
+    caption: str,
+    paint: Callable[[Axes], None],
+    marks: tuple[Mark, ...] = (),
+    size: tuple[float, float] = (WIDTH, HEIGHT),
+    wide: bool = False,
+) -> Drawn:
+    """Paint one panel and save it as SVG and PNG; a note of its marks is printed in the figure itself."""
+    with styled():
+        canvas, axes = panel(*size)
+        paint(axes)
+        if marks:
+            note = " · ".join(f"{mark.origin} {mark.code}" for mark in marks)
+            canvas.text(0.995, 0.995, note, ha="right", va="top", fontsize=6.0, color="#6b5200")
+            canvas.get_layout_engine().set(rect=(0, 0, 1, 0.965))  # type: ignore[union-attr]
+        svg = folder / f"{key}.svg"
+        with atomic_path(svg) as temporary:
+            canvas.savefig(temporary, format="svg", metadata={"Date": None, "Creator": None})
+        with atomic_path(folder / f"{key}.png") as temporary:
+            canvas.savefig(temporary, format="png", dpi=DPI, metadata={"Software": None})
+    return Drawn(Figure(key, title, caption, svg, marks, wide))

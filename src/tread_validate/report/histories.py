@@ -1,0 +1,74 @@
+"""The histories that the report draws: found, checked, thinned and packed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..history import History
+from .tables import Tables
+
+SAMPLES = 300
+TIME_SCALE = 1e-6  # s: packed times are whole microseconds
+FORCE_SCALE = 0.01  # N: packed forces are whole hundredths of a newton
+
+
+@dataclass(frozen=True)
+class HistoryStore:
+    """Where the histories of one report lie."""
+
+    spring: Path
+    reference: Path
+
+    def path(self, source: str, case_id: str) -> Path:
+        """Return the file of one history; it need not exist."""
+        kind, _, name = source.partition(":")
+        return (self.spring if kind == "spring" else self.reference) / name / f"{case_id}.csv"
+
+
+def load_histories(tables: Tables, store: HistoryStore) -> dict[str, dict[str, History]]:
+    """Return ``{case_id: {source: history}}`` of every history that the tables call current.
+
+    A reference that is stale or corrupt is not drawn: its force belongs to another deck.
+    """
+    found: dict[str, dict[str, History]] = {}
+    for row in tables.peaks.itertuples(index=False):
+        source, case_id = str(row.source), str(row.case_id)
+        if row.status != "current" or source.split(":")[0] not in ("spring", "fe") or source == "fe:published":
+            continue
+        path = store.path(source, case_id)
+        if path.is_file():
+            found.setdefault(case_id, {})[source] = History.read_csv(path)
+    return found
+
+
+def pack(history: History) -> dict[str, Any]:
+    """Return a history as small whole numbers: time steps in µs, forces in 0.01 N, slipping share in 1/1000."""
+    keep = thin(history)
+    microseconds = np.rint(history.time[keep] / TIME_SCALE).astype(int)
+    return {
+        "ts": TIME_SCALE * 1e3,
+        "fs": FORCE_SCALE,
+        "t": np.diff(microseconds, prepend=0).tolist(),
+        "n": np.rint(history.normal_force[keep] / FORCE_SCALE).astype(int).tolist(),
+        "q": np.rint(history.tangential_force[keep] / FORCE_SCALE).astype(int).tolist(),
+        "s": np.rint(history.slipping_fraction[keep] * 1e3).astype(int).tolist(),
+    }
+
+
+def thin(history: History, samples: int = SAMPLES) -> NDArray[np.int64]:
+    """Return the indices to keep: evenly spread ones, and the extremes, so that a peak read off is the table's peak."""
+    n = history.time.size
+    if n <= samples:
+        return np.arange(n)
+    even = np.rint(np.linspace(0, n - 1, samples)).astype(np.int64)
+    extremes = [
+        history.normal_force.argmax(),
+        history.tangential_force.argmax(),
+        history.tangential_force.argmin(),
+    ]
+    return np.unique(np.concatenate([even, np.array(extremes, dtype=np.int64)]))

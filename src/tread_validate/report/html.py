@@ -1,0 +1,86 @@
+"""The report as one self-contained HTML page."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import itertools
+import json
+from collections.abc import Iterable
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from markupsafe import Markup
+
+from .content import Report, Row
+
+SCRIPTS = ("start.js", "sort.js", "browser.js", "heatmap.js", "scatter.js", "end.js")
+
+
+def render(report: Report) -> str:
+    """Return the page's text: every asset inside, no address outside itself.
+
+    The page's Content-Security-Policy names its two scripts by their SHA-256 and allows no connection, so markup that
+    came in with a study could neither run nor call out even if it were not escaped, which it is.
+    """
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(str(_templates())),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri)
+    plotly, script = _plotly(), "\n".join(_asset(name) for name in SCRIPTS)
+    return (
+        environment.get_template("index.html.j2")
+        .render(
+            report=report,
+            style=Markup(_asset("style.css")),
+            data=embed_json(report.page_data),
+            plotly=Markup(plotly),
+            script=Markup(script),
+            policy=_policy(plotly, script),
+        )
+        .lstrip()
+    )
+
+
+def embed_json(data: Any) -> Markup:
+    """Return `data` as JSON that is safe inside a script element: no ``<``, ``>``, ``&`` or line separators."""
+    text = json.dumps(data, ensure_ascii=True, separators=(",", ":"), sort_keys=True, allow_nan=False)
+    for sign in "<>&":
+        text = text.replace(sign, f"\\u{ord(sign):04x}")
+    return Markup(text)
+
+
+def _groups(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
+    return [(name, list(members)) for name, members in itertools.groupby(rows, key=lambda row: row.group)]
+
+
+def _data_uri(path: Path) -> str:
+    return "data:image/svg+xml;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+def _policy(*scripts: str) -> str:
+    hashes = " ".join(
+        "'sha256-" + base64.b64encode(hashlib.sha256(text.encode("utf-8")).digest()).decode("ascii") + "'"
+        for text in scripts
+    )
+    return f"default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src {hashes}"
+
+
+def _plotly() -> str:
+    # read as a file: importing plotly itself costs a second and gives nothing more
+    text = resources.files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
+    return text.replace("\r\n", "\n")
+
+
+def _templates() -> Path:
+    return Path(str(resources.files("tread_validate.report").joinpath("templates")))
+
+
+def _asset(name: str) -> str:
+    return (_templates() / name).read_text(encoding="utf-8")

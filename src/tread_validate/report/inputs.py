@@ -1,0 +1,157 @@
+"""Sections on what a report rests on: assumptions, published inputs, references, provenance."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from typing import Any
+
+from .. import provenance
+from . import wording
+from .content import Cell, Column, Item, Paragraph, Row, Section, Table
+from .marks import Marks
+from .tables import Tables, number
+
+
+def inputs_section(tables: Tables, marks: Marks) -> Section:
+    """Return the assumptions with their codes, and what the paper's other numbers are used for."""
+    counts = {str(row.input): number(row.cases) for row in tables.assumed.itertuples(index=False)}
+    rows = []
+    for mark in marks.all():
+        name, _, source = mark.text.partition(f" ({mark.origin})")
+        cases = counts.get(name, counts.get(f"{name} ({mark.origin})"))
+        cells = (
+            Cell(mark.code),
+            Cell(name),
+            Cell(mark.origin),
+            Cell(source.removeprefix(": ")),
+            Cell("–" if cases is None else f"{cases:.0f}", sort=cases),
+        )
+        rows.append(Row(cells, key=f"assumption-{mark.code}"))
+    columns = (
+        Column("Code"),
+        Column("Input"),
+        Column("Origin"),
+        Column("What stands in, and why", wide=True),
+        Column("Cases that rest on it", numeric=True),
+    )
+    assumptions = Table("assumptions", "Assumed and synthetic inputs", columns, tuple(rows), empty="None.")
+    items: list[Item] = [
+        Paragraph(
+            "Assumed: a value that the paper does not give and that we chose. Synthetic: data made up to have the "
+            "published features. Neither is the paper's; every number that depends on one carries its code."
+        ),
+        assumptions,
+        _published(tables),
+    ]
+    return Section("inputs", "Inputs and assumptions", tuple(items))
+
+
+def _published(tables: Tables) -> Table:
+    rows = []
+    for record in tables.published.to_dict("records"):
+        value, unit = number(record["value"]), str(record["unit"])
+        shown = str(record["value"]) if value is None else wording.digits(value, 4)
+        cells = (
+            Cell(str(record["section"])),
+            Cell(str(record["statement"])),
+            Cell(f"{shown} {'' if unit in ('1', '-') else unit}".strip(), sort=value),
+            Cell(str(record["comparability"])),
+            Cell(str(record["comparison"])),
+        )
+        rows.append(Row(cells))
+    columns = (
+        Column("Section"),
+        Column("Statement", wide=True),
+        Column("Value", numeric=True),
+        Column("Used as"),
+        Column("How it is compared, or why not", wide=True),
+    )
+    return Table("published", "Every number in the paper's text", columns, tuple(rows), folded=True)
+
+
+def sensitivity_table(tables: Tables) -> Table | None:
+    """Return how the scores move with window and sampling, where that was tabulated."""
+    if not len(tables.sensitivity):
+        return None
+    rows = []
+    for record in tables.sensitivity.to_dict("records"):
+        value, change, samples = (number(record[key]) for key in ("value", "change", "samples"))
+        cells = (
+            Cell(wording.quantity(str(record["quantity"]), str(record["metric"]))),
+            Cell(str(record["variation"])),
+            Cell(wording.digits(samples, 6), sort=samples),
+            Cell(wording.digits(value, 4), sort=value),
+            Cell(wording.signed(wording.digits(change)), sort=change),
+            Cell(str(record["case_id"])),
+        )
+        rows.append(Row(cells))
+    columns = (
+        Column("Score", wide=True),
+        Column("Variation"),
+        Column("Samples", numeric=True),
+        Column("Value", numeric=True),
+        Column("Change", numeric=True),
+        Column("Case"),
+    )
+    title = "Sensitivity of the scores to window and sampling"
+    return Table("sensitivity", title, columns, tuple(rows), folded=True)
+
+
+def provenance_section(tables: Tables) -> Section:
+    """Return commit, versions and input digests."""
+    data = tables.provenance
+    facts = [("Code commit", str(data.get("commit", "unknown"))), ("Package version", str(data.get("version", "unknown")))]
+    facts += [("Study", str(data.get("study", "unknown"))), ("Study SHA-256", str(data.get("study_digest", "unknown")))]
+    facts += [("Report made by commit", provenance.commit())]
+    packages = _mapping(data.get("packages"))
+    inputs = _mapping(data.get("inputs"))
+    sources = _mapping(data.get("sources"))
+    states = [
+        (wording.source(name), ", ".join(f"{count} {state}" for state, count in _mapping(counts).items() if count))
+        for name, counts in sources.items()
+    ]
+    tables_made = [
+        _facts("provenance-code", "Code and study", "Fact", facts),
+        _facts("provenance-sources", "Sources", "Source", states),
+        _facts("provenance-packages", "Packages", "Package", [(k, str(v)) for k, v in packages.items()], folded=True),
+        _facts("provenance-inputs", "Input files, SHA-256", "File", [(k, str(v)) for k, v in inputs.items()], folded=True),
+    ]
+    note = Paragraph("The same code on the same inputs gives this report byte for byte.")
+    return Section("provenance", "Provenance", (note, *(table for table in tables_made if table.rows)))
+
+
+def _facts(key: str, title: str, name: str, facts: list[tuple[str, str]], folded: bool = False) -> Table:
+    rows = tuple(Row((Cell(left), Cell(right))) for left, right in facts)
+    return Table(key, title, (Column(name), Column("Value", wide=True)), rows, folded=folded)
+
+
+def _mapping(value: Any) -> Mapping[str, Any]:
+    return value if isinstance(value, Mapping) else {}
+
+
+def stamp(tables: Tables) -> tuple[tuple[str, str], ...]:
+    """Return the facts that head and foot the report."""
+    data = tables.provenance
+    digest = str(data.get("study_digest", "unknown"))
+    return (
+        ("Study", str(data.get("study", "unknown"))),
+        ("Study SHA-256", digest[:12]),
+        ("Code", f"tread_validate {data.get('version', 'unknown')}, commit {data.get('commit', 'unknown')}"),
+    )
+
+
+def plain_table(key: str, title: str, frame: Any, marks: Marks, *, folded: bool = False, limit: int = 400) -> Table:
+    """Return any table as it is, for tables whose columns the report does not know."""
+    names = [str(name) for name in frame.columns if name != "assumed"]
+    numeric = {name: str(frame[name].dtype) != "str" and frame[name].dtype.kind in "if" for name in names}
+    rows = []
+    for record in itertools.islice(frame.to_dict("records"), limit):
+        cells = []
+        for name in names:
+            value = number(record[name]) if numeric[name] else None
+            cells.append(Cell(wording.digits(value, 4), sort=value) if numeric[name] else Cell(str(record[name])))
+        rows.append(Row(tuple(cells), marks.of(record.get("assumed", ""))))
+    columns = tuple(Column(name.replace("_", " "), numeric=numeric[name], wide=not numeric[name]) for name in names)
+    caption = f"First {limit} of {len(frame)} rows." if len(frame) > limit else ""
+    return Table(key, title, columns, tuple(rows), caption, with_marks="assumed" in frame.columns, folded=folded)

@@ -1,0 +1,131 @@
+/* Case browser: factors choose a case; its histories are drawn over each other, its errors stand beside them. */
+"use strict";
+TV.browser = (function () {
+  const data = TV.data;
+  const byId = new Map(data.cases.map((item) => [item.id, item]));
+  let current = null;
+
+  /* packed histories: whole numbers times a scale; times as differences */
+  function unpack(packed) {
+    let sum = 0;
+    return {
+      time: packed.t.map((step) => (sum += step) * packed.ts),
+      normal: packed.n.map((value) => value * packed.fs),
+      tangential: packed.q.map((value) => value * packed.fs),
+      slipping: packed.s.map((value) => value / 1000),
+    };
+  }
+
+  function nearest(factor, level) {
+    const score = (item) => data.factors.reduce((sum, other) => sum + (item.levels[other.key] === current.levels[other.key] ? 1 : 0), 0);
+    const candidates = data.cases.filter((item) => item.levels[factor] === level);
+    return candidates.reduce((best, item) => (best === null || score(item) > score(best) ? item : best), null);
+  }
+
+  function drawFactors() {
+    const group = data.cases.filter((item) => item.run === current.run && item.levels.path === current.levels.path);
+    for (const factor of data.factors) {
+      const field = document.getElementById("factor-" + factor.key);
+      const here = new Set((factor.key === "path" ? data.cases : group).map((item) => item.levels[factor.key]));
+      field.hidden = here.size < 2 && factor.key !== "path";
+      for (const input of field.querySelectorAll("input")) {
+        const index = Number(input.value);
+        input.parentElement.hidden = !here.has(index);
+        input.checked = current.levels[factor.key] === index;
+      }
+    }
+  }
+
+  function drawHistories() {
+    const traces = [];
+    for (const source of data.sources) {
+      const packed = (data.histories[current.id] || {})[source.key];
+      if (!packed) { continue; }
+      const history = unpack(packed);
+      const line = { color: source.color, dash: source.dash, width: source.reference ? 2.4 : 1.8 };
+      const common = { mode: "lines", type: "scatter", x: history.time, line, name: source.label, legendgroup: source.key };
+      traces.push(Object.assign({}, common, { y: history.normal, hovertemplate: "%{y:.1f} N" }));
+      traces.push(Object.assign({}, common, { y: history.tangential, yaxis: "y2", showlegend: false, hovertemplate: "%{y:.2f} N" }));
+      traces.push(Object.assign({}, common, { y: history.slipping.map((v) => 100 * v), yaxis: "y3", showlegend: false, hovertemplate: "%{y:.0f} %" }));
+    }
+    const layout = TV.layout({
+      grid: { rows: 3, columns: 1 }, hovermode: "x unified", dragmode: TV.coarse ? false : "zoom",
+      xaxis: TV.axis("time from first touch, ms", { anchor: "y3", domain: [0, 1] }),
+      yaxis: TV.axis("normal force, N", { domain: [0.6, 1] }),
+      yaxis2: TV.axis("tangential force, N", { domain: [0.24, 0.56] }),
+      yaxis3: TV.axis("slipping, %", { domain: [0, 0.18], range: [-4, 104], dtick: 50 }),
+      height: 560,
+    });
+    if (traces.length === 0) {
+      layout.annotations = [{ text: "no history for this case", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.8 }];
+    }
+    Plotly.react("case-plot", traces, layout, TV.config);
+  }
+
+  function drawErrors() {
+    const body = document.getElementById("case-errors");
+    body.replaceChildren();
+    let last = null;
+    for (const row of data.errors[current.id] || []) {
+      const pair = row.p + " against " + row.r;
+      if (pair !== last) {
+        body.append(TV.element("tr", { class: "group" }, TV.element("th", { colspan: 5, scope: "colgroup" }, pair)));
+        last = pair;
+      }
+      const verdict = TV.element("td", { class: row.tone ? row.tone + "-text" : null }, row.v);
+      if (row.note) { verdict.append(TV.element("span", { class: "why" }, row.note)); }
+      body.append(TV.element("tr", {}, TV.element("td", {}, row.q), TV.element("td", { class: "num" }, row.a),
+        TV.element("td", { class: "num" }, row.b), TV.element("td", { class: "num" }, row.e), verdict));
+    }
+    if (!body.children.length) {
+      body.append(TV.element("tr", {}, TV.element("td", { colspan: 5 }, "No comparison for this case.")));
+    }
+  }
+
+  function drawHead() {
+    document.getElementById("case-title").textContent = current.label;
+    document.getElementById("case-id").textContent = current.id;
+    document.getElementById("case-status").textContent = current.status;
+    const marks = document.getElementById("case-marks");
+    marks.replaceChildren();
+    for (const mark of current.marks) {
+      marks.append(TV.element("a", { class: "mark", href: "#" + mark.href, title: mark.title }, mark.text), " ");
+    }
+    document.getElementById("case-link").setAttribute("href", "#case=" + current.id);
+  }
+
+  function show(id, moveHash) {
+    const item = byId.get(id);
+    if (!item) { return false; }
+    current = item;
+    drawHead(); drawFactors(); drawErrors(); drawHistories();
+    if (moveHash) { history.replaceState(null, "", "#case=" + id); }
+    return true;
+  }
+
+  function fromHash(scroll) {
+    const match = /^#case=([a-z0-9-]+)$/.exec(location.hash);
+    if (!match || !show(match[1], false)) { return false; }
+    if (scroll) { document.getElementById("browser").scrollIntoView({ block: "start" }); }
+    return true;
+  }
+
+  function step(by) {
+    const index = data.cases.indexOf(current);
+    show(data.cases[(index + by + data.cases.length) % data.cases.length].id, true);
+  }
+
+  function start() {
+    if (!data.cases.length) { return; }
+    document.getElementById("factors").addEventListener("change", (event) => {
+      const factor = event.target.name.replace(/^factor-/, "");
+      const item = nearest(factor, Number(event.target.value));
+      if (item) { show(item.id, true); }
+    });
+    document.getElementById("case-previous").addEventListener("click", () => step(-1));
+    document.getElementById("case-next").addEventListener("click", () => step(1));
+    window.addEventListener("hashchange", () => fromHash(true));
+    if (!fromHash(true)) { show(data.first, false); }
+  }
+  return { start, show, current: () => (current ? current.id : null) };
+})();

@@ -1,0 +1,50 @@
+/* Predicted against reference on logarithmic axes, with the line of no error, the bias and two standard deviations. */
+"use strict";
+TV.scatter = (function () {
+  function draw() {
+    const chosen = TV.data.scatter[Number(document.getElementById("scatter-quantity").value)];
+    const traces = [];
+    const all = chosen.series.flatMap((series) => series.x.concat(series.y));
+    const shapes = [];
+    if (all.length) {
+      const low = 0.85 * Math.min(...all), high = 1.18 * Math.max(...all);
+      const line = (factor, name, style) => ({ type: "scatter", mode: "lines", x: [low, high], y: [factor * low, factor * high], name,
+        line: style, hoverinfo: "skip" });
+      traces.push(line(1, "equal", { color: "#000", width: 1 }));
+      for (const series of chosen.series) {
+        if (series.bias !== null) {
+          traces.push(line(series.bias, series.label + ": bias", { color: series.color, width: 1.6, dash: "dash" }));
+          if (series.sigma !== null) {
+            const spread = Math.exp(2 * series.sigma);
+            traces.push({ type: "scatter", mode: "lines", fill: "toself", hoverinfo: "skip", line: { width: 0 }, opacity: 0.25,
+              fillcolor: series.color + "33", name: series.label + ": bias \u00d7 exp(\u00b12\u03c3)",
+              x: [low, high, high, low], y: [low * series.bias * spread, high * series.bias * spread, high * series.bias / spread, low * series.bias / spread] });
+          }
+        }
+      }
+    }
+    for (const series of chosen.series) {
+      traces.push({ type: "scatter", mode: "markers", x: series.x, y: series.y, text: series.labels, customdata: series.ids, name: series.label,
+        marker: { color: series.color, symbol: series.symbol, size: 8, line: { color: "#fff", width: 0.8 } },
+        hovertemplate: "%{text}<br>reference %{x:.4g}, predicted %{y:.4g}<extra>%{fullData.name}</extra>" });
+    }
+    const layout = TV.layout({ shapes, hovermode: "closest", dragmode: TV.coarse ? false : "zoom", height: 520,
+      xaxis: TV.axis("reference, " + chosen.unit, { type: "log", dtick: "D2" }), yaxis: TV.axis("predicted, " + chosen.unit, { type: "log", dtick: "D2" }) });
+    if (!all.length) {
+      layout.annotations = [{ text: "no current reference to compare with", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5 }];
+      layout.xaxis = TV.axis("reference, " + chosen.unit); layout.yaxis = TV.axis("predicted, " + chosen.unit);
+    }
+    Plotly.react("scatter-plot", traces, layout, TV.config);
+  }
+  function start() {
+    const select = document.getElementById("scatter-quantity");
+    if (!select) { return; }
+    select.addEventListener("change", draw);
+    draw();
+    document.getElementById("scatter-plot").on("plotly_click", (event) => {
+      const id = event.points[0].customdata;
+      if (id) { location.hash = "case=" + id; }
+    });
+  }
+  return { start };
+})();

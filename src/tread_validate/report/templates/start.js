@@ -1,0 +1,30 @@
+/* The page's data, and the one name all parts share. */
+"use strict";
+const TV = {};
+TV.data = JSON.parse(document.getElementById("data").textContent);
+TV.element = function (name, attributes, ...children) {
+  const node = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes || {})) {
+    if (value !== null && value !== undefined) { node.setAttribute(key, value); }
+  }
+  for (const child of children) { node.append(child); }
+  return node;
+};
+TV.minus = (text) => text.replace(/^-/, "\u2212");
+TV.percent = (value) => (value === null ? "\u2013" : TV.minus((100 * value).toFixed(1)) + "\u00a0%");
+TV.number = (value) => (value === null ? "\u2013" : TV.minus(Number(value.toPrecision(4)).toString()));
+TV.layout = function (extra) {
+  return Object.assign({
+    font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: "#1b1f24" },
+    paper_bgcolor: "#fff", plot_bgcolor: "#fff", margin: { l: 62, r: 12, t: 10, b: 44 },
+    legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" }, hoverlabel: { font: { size: 12 } },
+  }, extra);
+};
+TV.axis = function (title, extra) {
+  return Object.assign({ title: { text: title, standoff: 8 }, showline: true, linecolor: "#57606a", ticks: "outside", tickcolor: "#57606a",
+    gridcolor: "#e6e9ec", zeroline: true, zerolinecolor: "#9aa3ab", automargin: true }, extra);
+};
+/* A finger on a chart scrolls the page; the tool bar still zooms. */
+TV.coarse = window.matchMedia("(pointer: coarse)").matches;
+TV.config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+  toImageButtonOptions: { format: "svg" }, locale: "en" };

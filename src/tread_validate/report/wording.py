@@ -1,0 +1,140 @@
+"""The report's words for table keys: sources, quantities, metrics, verdicts, and numbers with their units."""
+
+from __future__ import annotations
+
+import math
+
+from .content import Tone
+
+QUANTITIES = {
+    "peak_normal_force": "Peak normal force",
+    "peak_positive_tangential_force": "Peak tangential force, towards leading edge",
+    "peak_negative_tangential_force": "Peak tangential force, towards trailing edge",
+    "normal_impulse": "Normal impulse",
+    "net_tangential_impulse": "Net tangential impulse",
+    "contact_duration": "Contact duration",
+    "time_of_peak_normal_force": "Time of normal peak",
+    "tangential_to_normal_ratio": "Peak ratio |T|/N",
+    "late_sign_change": "T changes sign again at exit",
+    "slipping_share": "Share of contact that slips",
+    "peak_pressure": "Peak pressure",
+    "normal_force": "Normal force history",
+    "tangential_force": "Tangential force history",
+}
+METRICS = {
+    "scalar": "",
+    "relative_rms": "relative RMS error",
+    "sprague_geers_m": "Sprague-Geers magnitude M",
+    "sprague_geers_p": "Sprague-Geers phase P",
+    "sprague_geers_c": "Sprague-Geers combined C",
+    "iso18571_r": "ISO/TS 18571 score R",
+    "iso18571_corridor": "ISO/TS 18571 corridor",
+    "iso18571_phase": "ISO/TS 18571 phase",
+    "iso18571_magnitude": "ISO/TS 18571 magnitude",
+    "iso18571_slope": "ISO/TS 18571 slope",
+}
+GROUPS = {
+    "all": "all cases",
+    "rig": "rig",
+    "belt": "tyre belt",
+    "rectangle": "rig, rectangle",
+    "parallelogram": "rig, parallelogram",
+    "published": "rig, 0.1 and 0.2 mm",
+}
+TONES: dict[str, Tone] = {"agrees": "good", "disagrees": "bad", "cannot tell": "unknown"}
+SYMBOLS = {"agrees": "✓", "disagrees": "✗", "cannot tell": "?"}
+STATUSES = {
+    "current": "current",
+    "missing": "no reference run yet",
+    "stale": "reference run belongs to an older deck",
+    "corrupt": "reference fails its checksum",
+    "no_contact": "no contact",
+    "undefined": "not defined here",
+}
+
+
+def source(key: str) -> str:
+    """Name a source: ``spring:paper`` becomes ``Spring model (paper)``."""
+    kind, _, name = key.partition(":")
+    known = {
+        "rig:published": "Rig (published)",
+        "fe:published": "FE (published)",
+        "rig:measured": "Rig (measured)",
+        "fe:embedded": "FE (embedded engine)",
+        "fe:abaqus": "FE (ABAQUS)",
+        "fe:calculix": "FE (CalculiX)",
+    }
+    if key in known:
+        return known[key]
+    prefix = {"spring": "Spring model", "fe": "FE", "rig": "Rig"}.get(kind, kind)
+    return f"{prefix} ({name})" if name else prefix
+
+
+def quantity(key: str, metric: str = "scalar") -> str:
+    """Name a quantity with its metric."""
+    words = QUANTITIES.get(key, key.replace("_", " ").capitalize())
+    extra = METRICS.get(metric, metric.replace("_", " "))
+    return f"{words}: {extra}" if extra else words
+
+
+def group(key: str) -> str:
+    """Name a group of cases."""
+    return GROUPS.get(key, key.replace("_", " "))
+
+
+def verdict(key: str) -> str:
+    """Write a verdict with its symbol, so that colour is never its only carrier."""
+    return f"{SYMBOLS[key]} {key}" if key in SYMBOLS else key
+
+
+def status(key: str) -> str:
+    """Write a status out in words."""
+    return STATUSES.get(key, key)
+
+
+def digits(value: float | None, figures: int = 3) -> str:
+    """Write a number with `figures` significant digits and a true minus sign; nothing is an en dash."""
+    if value is None or math.isnan(value):
+        return "–"
+    if math.isinf(value):
+        return "∞" if value > 0 else "−∞"
+    if value == 0.0:
+        return "0"
+    exponent = math.floor(math.log10(abs(value)))
+    rounded = round(value, figures - 1 - exponent)
+    if rounded != 0.0:
+        exponent = math.floor(math.log10(abs(rounded)))
+    if exponent < -4 or exponent > 6:
+        mantissa = f"{rounded / 10.0**exponent:.{figures - 1}f}"
+        power = str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        return f"{mantissa}·10{power}".replace("-", "−")
+    return f"{rounded:.{max(0, figures - 1 - exponent)}f}".replace("-", "−")
+
+
+def signed(text: str) -> str:
+    """Put a plus sign before a positive number that has none."""
+    return text if text[:1] in "−–0+∞" and not text.startswith("0.") else f"+{text}"
+
+
+def percent(value: float | None, decimals: int = 1, sign: bool = False) -> str:
+    """Write a fraction in per cent."""
+    if value is None or math.isnan(value):
+        return "–"
+    text = f"{100.0 * value:+.{decimals}f}" if sign else f"{100.0 * value:.{decimals}f}"
+    return text.replace("-", "−") + " %"
+
+
+def error(value: float | None, error_type: str, unit: str = "") -> str:
+    """Write an error as its type asks: relative in per cent, absolute in its unit, a score as it is."""
+    if value is None:
+        return "–"
+    if error_type == "relative":
+        return percent(value, sign=True)
+    if error_type == "score":
+        return digits(value)
+    return f"{signed(digits(value))} {unit}".strip()
+
+
+def plural(count: int, one: str, many: str | None = None) -> str:
+    """Write ``1 case``, ``2 cases``."""
+    return f"{count} {one if count == 1 else many or one + 's'}"
