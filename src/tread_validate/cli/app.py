@@ -20,6 +20,7 @@ EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_ENGINE = 0, 1, 2, 3
 VERBS = {
     "cases": "cases",
     "schema": "schema",
+    "spring": "spring",
     "stimulus": "stimulus",
     "references": "references",
     "stale": "stale",
