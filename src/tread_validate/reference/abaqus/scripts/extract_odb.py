@@ -4,7 +4,7 @@
 #
 # Runs under the Python of ABAQUS: 2.7 (releases to 2023) and 3.x (from 2024). It needs nothing but odbAccess. Keep it
 # free of anything that only one of the two grammars knows (no f-strings, no print statement, no annotations).
-from __future__ import division, print_function
+from __future__ import division
 
 import hashlib
 import io
@@ -196,18 +196,18 @@ def main(arguments):
         word = words.pop(0)
         if word in options:
             if not words:
-                print("extract_odb: %s needs a value" % word, file=sys.stderr)
+                sys.stderr.write("extract_odb: %s needs a value\n" % word)
                 return 2
             options[word] = words.pop(0)
         else:
             files.append(word)
     if len(files) != 1 or not options["-o"]:
-        print("usage: abaqus python extract_odb.py JOB.odb -o FORCES.csv [--step pass]", file=sys.stderr)
+        sys.stderr.write("usage: abaqus python extract_odb.py JOB.odb -o FORCES.csv [--step pass]\n")
         return 2
     try:
         extract(files[0], options["-o"], options["--step"])
     except ExtractionError as error:
-        print("extract_odb: %s: %s" % (files[0], error), file=sys.stderr)
+        sys.stderr.write("extract_odb: %s: %s\n" % (files[0], error))
         return 3
     return 0
 
