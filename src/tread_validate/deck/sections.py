@@ -89,9 +89,9 @@ def road(path: Path, creep_ratio: float, points: FloatArray, pass_time: float) -
     else:
         radius = path.road.radius * DECK_LENGTH
         place = (0.0, -radius, 0.0)
-        corners = [(radius * math.cos(a), radius * math.sin(a)) for a in np.radians([-90.0, -210.0, -330.0, -450.0])]
+        high, wide = 0.5 * radius, 0.5 * math.sqrt(3.0) * radius
+        corners = [(0.0, -radius), (-wide, high), (wide, high), (0.0, -radius)]
         start, *ends = [f"{number(x)}, {number(y)}" for x, y in corners]
-        ends[-1] = start
         profile = [f"START, {start}", *(f"CIRCL, {end}, 0., 0." for end in ends)]
         what = "Road: rigid big wheel"
     x, y, z = place
