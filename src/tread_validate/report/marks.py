@@ -47,3 +47,16 @@ class Marks:
         plain = _ENDING.sub("", name)
         text = f"{plain} ({origin})" + (f": {source}" if source else "")
         self._known[plain] = Mark(f"A{len(self._known) + 1}", origin, text)
+
+
+def by_origin(marks: Iterable[Mark]) -> list[tuple[str, list[Mark]]]:
+    """Group marks by what they are: assumed, synthetic."""
+    found: dict[str, list[Mark]] = {}
+    for mark in marks:
+        found.setdefault(mark.origin, []).append(mark)
+    return list(found.items())
+
+
+def in_words(marks: Iterable[Mark]) -> str:
+    """Write marks as text: ``synthetic A1 · assumed A2 A4``."""
+    return " · ".join(f"{origin} {' '.join(mark.code for mark in members)}" for origin, members in by_origin(marks))

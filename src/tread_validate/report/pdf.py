@@ -1,11 +1,142 @@
-"""The report as a PDF."""
+"""The report as a PDF, set by typst.
+
+Every text goes to typst as a string in a JSON file, never as markup, so nothing in a study can be read as code.
+"""
 
 from __future__ import annotations
 
+import itertools
+import json
+import shutil
+import tempfile
+from collections.abc import Sequence
+from importlib import resources
 from pathlib import Path
+from typing import Any
 
-from .content import Report
+import typst
+
+from ..errors import EngineError
+from ..files import write_bytes
+from .content import Cell, Column, Figures, Item, Paragraph, Report, Section, Table, Verdicts
+from .marks import in_words
+
+LONGEST_TABLE = 260  # rows: the page and the CSV files hold the rest
 
 
 def write_pdf(report: Report, path: Path) -> None:
-    """Write the PDF."""
+    """Write the report as a PDF, atomically; raises `EngineError` where typst refuses.
+
+    Fonts are the ones inside the typst wheel and the time of making is left out, so that one input gives one file.
+    """
+    with tempfile.TemporaryDirectory(prefix="tread-report-") as name:
+        folder = Path(name)
+        template = resources.files("tread_validate.report").joinpath("templates", "report.typ")
+        (folder / "report.typ").write_text(template.read_text(encoding="utf-8"), encoding="utf-8")
+        data = {
+            "title": report.title,
+            "subtitle": report.subtitle,
+            "lead": list(report.lead),
+            "notes": list(report.notes),
+            "stamp": [list(pair) for pair in report.stamp],
+            "sections": [found for section in report.sections if (found := _section(section, folder)) is not None],
+        }
+        (folder / "data.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8")
+        try:
+            made = typst.compile(
+                str(folder / "report.typ"),
+                root=str(folder),
+                ignore_system_fonts=True,
+                timestamp=0,
+                package_path=str(folder),
+                package_cache_path=str(folder),
+            )
+        except RuntimeError as error:
+            raise EngineError(f"typst: {error}") from error
+    write_bytes(path, made)
+
+
+def _section(section: Section, folder: Path) -> dict[str, Any] | None:
+    if section.page_only:
+        return None
+    items = [found for item in section.items for found in _items(item, folder)]
+    return {"title": section.title, "items": items} if items else None
+
+
+def _items(item: Item, folder: Path) -> list[dict[str, Any]]:
+    if isinstance(item, Paragraph):
+        return [{"kind": "paragraph", "text": item.text, "tone": item.tone, "marks": in_words(item.marks)}]
+    if isinstance(item, Verdicts):
+        lines = [
+            {"q": v.question, "a": v.answer, "tone": v.tone, "label": v.label, "marks": in_words(v.marks)}
+            for v in item.items
+        ]
+        return [{"kind": "verdicts", "items": lines}]
+    if isinstance(item, Figures):
+        return [_figures(item, folder)]
+    if isinstance(item, Table):
+        return [_table(item)]
+    return []
+
+
+def _figures(figures: Figures, folder: Path) -> dict[str, Any]:
+    found = []
+    for figure in figures.items:
+        shutil.copyfile(figure.svg, folder / f"{figure.key}.svg")
+        found.append(
+            {
+                "file": f"{figure.key}.svg",
+                "title": figure.title,
+                "caption": figure.caption,
+                "marks": in_words(figure.marks),
+                "wide": figure.wide,
+            }
+        )
+    return {"kind": "figures", "items": found}
+
+
+def _table(table: Table) -> dict[str, Any]:
+    columns = [_column(column) for column in table.columns]
+    if table.with_marks:
+        columns.append({"title": "Rests on", "unit": "", "numeric": False, "marks": "", "wide": False})
+    rows: list[dict[str, Any]] = []
+    for group, members in itertools.groupby(table.rows[:LONGEST_TABLE], key=lambda row: row.group):
+        if group:
+            rows.append({"group": group, "cells": []})
+        for row in members:
+            cells = [_cell(cell) for cell in row.cells]
+            if table.with_marks:
+                cells.append({"text": in_words(row.marks), "note": "", "tone": "mute"})
+            rows.append({"group": "", "cells": cells})
+    caption = table.caption
+    if len(table.rows) > LONGEST_TABLE:
+        caption += f" The first {LONGEST_TABLE} of {len(table.rows)} rows; the rest is in the CSV tables."
+    return {
+        "kind": "table",
+        "title": table.title,
+        "caption": caption.strip(),
+        "columns": columns,
+        "rows": rows,
+        "weights": _weights(table.columns, table.with_marks),
+        "empty": table.empty,
+    }
+
+
+def _column(column: Column) -> dict[str, Any]:
+    return {
+        "title": column.title,
+        "unit": column.unit,
+        "numeric": column.numeric,
+        "marks": in_words(column.marks),
+        "wide": column.wide,
+    }
+
+
+def _cell(cell: Cell) -> dict[str, str]:
+    return {"text": cell.text, "note": cell.note, "tone": cell.tone}
+
+
+def _weights(columns: Sequence[Column], with_marks: bool) -> list[float]:
+    """Share the page's width: texts that may wrap get three times what a number gets."""
+    found = [3.0 if column.wide else (1.0 if column.numeric else 1.3) for column in columns]
+    return [*found, 1.2] if with_marks else found

@@ -4,32 +4,31 @@ from __future__ import annotations
 
 from typing import Any
 
+import pandas as pd
+
 from . import wording
-from .content import Mark, Tone, Verdict, Verdicts
+from .content import Tone, Verdict, Verdicts
 from .marks import Marks
 from .results import count_verdicts
 from .tables import Tables, number
 
 LEAD = (
-    "How far can a spring model of a tread block be trusted? Every case of the study is run with the spring models "
-    "and, where a finite element (FE) run of the same block on the same path exists, compared with it; both are held "
-    "against what the paper published.",
+    "Every case of the study is run with the spring models of a tread block. Where a finite element (FE) run of the same "
+    "block on the same path exists, the two are compared; both are held against what the paper published.",
 )
 CAVEAT = (
-    "The FE runs are another model of the same study, not measurements. Agreement with them shows that the simpler "
-    "model keeps what the finer one predicts; only the published rig values are validation."
+    "The FE runs are a second model of the same study, not measurements: agreement with them is verification of the "
+    "simpler model against the finer one. Only the published rig values are validation."
 )
 
 
 def summary(tables: Tables, marks: Marks, delta: tuple[Tone, str] | None) -> Verdicts:
     """Return the verdict lines."""
-    lines = [_references(tables, marks)]
-    for pair in _pairs(tables):
-        lines += [line for line in (_forces(tables, marks, pair), _shape(tables, marks, pair)) if line is not None]
-    lines.append(_claims(tables, marks))
-    lines.append(_slopes(tables, marks))
+    lines = [line for pair in _pairs(tables) if (line := _model(tables, marks, pair)) is not None]
+    lines += [_claims(tables, marks), _slopes(tables, marks), _references(tables)]
     if delta is not None:
-        lines.append(Verdict("Has anything moved since the accepted baseline?", delta[1], delta[0], _moved(delta[0]), (), "baseline"))
+        question = "Has anything moved since the accepted baseline?"
+        lines.append(Verdict(question, delta[1], delta[0], _moved(delta[0]), (), "baseline"))
     lines.append(_foundations(marks))
     return Verdicts(tuple(lines))
 
@@ -39,7 +38,7 @@ def _pairs(tables: Tables) -> list[tuple[str, str]]:
     return list(dict.fromkeys(zip(frame["predicted_source"], frame["reference_source"], strict=True)))
 
 
-def _references(tables: Tables, marks: Marks) -> Verdict:
+def _references(tables: Tables) -> Verdict:
     """Say how many FE references are current, in words."""
     frame = tables.peaks
     texts: list[str] = []
@@ -72,63 +71,59 @@ def _row(tables: Tables, pair: tuple[str, str], quantity: str, metric: str) -> d
     return {str(key): value for key, value in records[0].items()} if records else None
 
 
-def _forces(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | None:
+def _model(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | None:
+    """Say how well one model gives forces and histories."""
     row = _row(tables, pair, "peak_normal_force", "scalar")
     if row is None:
         return None
-    question = f"{wording.source(pair[0])}: does it give the FE peak forces ({wording.source(pair[1])})?"
+    question = f"{wording.source(pair[0])}: does it give the forces of {wording.source(pair[1])}?"
+    own = marks.of(row["assumed"])
     if not number(row["compared"]):
-        reason = str(row["note"] or "") or "no current reference"
-        return Verdict(question, f"Not answered: {reason}.", "unknown", "cannot tell", marks.of(row["assumed"]), "results")
-    errors = tables.errors
-    mine = errors[
-        (errors["predicted_source"] == pair[0])
-        & (errors["reference_source"] == pair[1])
-        & (errors["quantity"] == "peak_normal_force")
+        reason = str(row["note"] or "") or "no current reference run"
+        return Verdict(question, f"Not answered: {reason}.", "unknown", "cannot tell", own, "results")
+    mine = tables.errors[
+        (tables.errors["predicted_source"] == pair[0]) & (tables.errors["reference_source"] == pair[1])
     ]
-    counts = count_verdicts(mine)
+    counts = count_verdicts(mine[mine["quantity"] == "peak_normal_force"])
     bias, scatter = number(row["bias"]), number(row["model_scatter"])
-    parts = [f"Peak normal force: mean |error| {wording.percent(number(row['mean_abs_error']))}"]
+    parts = [f"mean |error| {wording.percent(number(row['mean_abs_error']))}"]
     parts.append(f"largest {wording.percent(number(row['largest_abs_error']))} ({row['largest_case_id']})")
-    if bias is not None:
-        parts.append(f"bias δ = {wording.digits(bias)}")
-    if scatter is not None:
-        parts.append(f"scatter {wording.percent(scatter)}")
-    text = ", ".join(parts) + f". {_counted(counts)}."
-    tangential = _row(tables, pair, "peak_positive_tangential_force", "scalar")
-    if tangential is not None and number(tangential["compared"]):
-        size = number(tangential["mean_abs_error"])
-        kind, unit = str(tangential["error_type"]), str(tangential["unit"])
-        shown = wording.percent(size) if kind == "relative" else f"{wording.digits(size)} {unit}"
-        text += f" Peak tangential force: mean |error| {shown}."
-    return Verdict(question, text, _tone(counts), _label(counts), marks.of(row["assumed"]), "results")
+    parts += [f"bias δ = {wording.digits(bias)}"] if bias is not None else []
+    parts += [f"scatter σ = {wording.percent(scatter)}"] if scatter is not None else []
+    text = f"Peak normal force: {', '.join(parts)}. {_counted(counts)}."
+    text += _tangential(tables, pair) + _histories(tables, pair) + _grades(mine)
+    return Verdict(question, text, _tone(counts), _label(counts), own, "results")
 
 
-def _shape(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | None:
-    normal = _row(tables, pair, "normal_force", "relative_rms")
-    tangential = _row(tables, pair, "tangential_force", "relative_rms")
-    if normal is None or tangential is None or not number(normal["compared"]):
-        return None
-    frame = tables.errors
-    mine = frame[
-        (frame["predicted_source"] == pair[0])
-        & (frame["reference_source"] == pair[1])
-        & (frame["metric"] == "iso18571_r")
-    ]
-    grades: dict[str, dict[str, int]] = {}
-    for quantity, grade in zip(mine["quantity"], mine["note"], strict=True):
-        if str(grade) in ("excellent", "good", "fair", "poor"):
-            counts = grades.setdefault(str(quantity), {})
-            counts[str(grade)] = counts.get(str(grade), 0) + 1
-    text = (
-        f"Relative RMS error over the pass: normal {wording.percent(number(normal['mean_abs_error']))}, tangential "
-        f"{wording.percent(number(tangential['mean_abs_error']))} of the reference's peak, on average."
+def _tangential(tables: Tables, pair: tuple[str, str]) -> str:
+    row = _row(tables, pair, "peak_positive_tangential_force", "scalar")
+    if row is None or not number(row["compared"]):
+        return ""
+    size, unit = number(row["mean_abs_error"]), str(row["unit"])
+    shown = wording.percent(size) if row["error_type"] == "relative" else f"{wording.digits(size)} {unit}"
+    return f" Peak tangential force: mean |error| {shown}."
+
+
+def _histories(tables: Tables, pair: tuple[str, str]) -> str:
+    rows = [_row(tables, pair, quantity, "relative_rms") for quantity in ("normal_force", "tangential_force")]
+    means = [number(row["mean_abs_error"]) for row in rows if row is not None and number(row["compared"])]
+    if len(means) != 2:
+        return ""
+    return (
+        f" Histories: RMS error {wording.percent(means[0])} of the peak (normal) and {wording.percent(means[1])} "
+        "(tangential) on average."
     )
-    for quantity, counts in grades.items():
-        order = [f"{counts[g]} {g}" for g in ("excellent", "good", "fair", "poor") if g in counts]
-        text += f" ISO/TS 18571, {wording.quantity(quantity).lower()}: {', '.join(order)}."
-    question = f"{wording.source(pair[0])}: does it give the shape of the force histories?"
-    return Verdict(question, text, "unknown", "graded", marks.of(normal["assumed"]), "results")
+
+
+def _grades(errors: pd.DataFrame) -> str:
+    text = ""
+    for quantity, name in (("normal_force", "normal"), ("tangential_force", "tangential")):
+        own = errors[(errors["metric"] == "iso18571_r") & (errors["quantity"] == quantity)]
+        grades = [str(note) for note in own["note"]]
+        found = [f"{grades.count(g)} {g}" for g in ("excellent", "good", "fair", "poor") if g in grades]
+        if found:
+            text += f" ISO/TS 18571, {name}: {', '.join(found)}."
+    return text
 
 
 def _claims(tables: Tables, marks: Marks) -> Verdict:
@@ -205,7 +200,3 @@ def _label(counts: dict[str, int]) -> str:
 def _moved(tone: Tone) -> str:
     return {"good": "unchanged", "bad": "moved"}.get(tone, "not checked")
 
-
-def mark_codes(marks: tuple[Mark, ...]) -> str:
-    """Write marks as text, for places that have no links."""
-    return " ".join(f"{mark.origin} {mark.code}" for mark in marks)

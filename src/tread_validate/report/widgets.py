@@ -11,7 +11,7 @@ from . import wording
 from .cases import CaseView, facets, factor_levels
 from .content import Mark, Widget
 from .histories import pack
-from .marks import Marks
+from .marks import Marks, by_origin
 from .palette import Look
 from .tables import Tables, number
 
@@ -28,6 +28,8 @@ HEAT = (
     ("normal_force", "iso18571_r"),
     ("tangential_force", "iso18571_r"),
 )
+# parts of a score that the browser leaves to the CSV tables
+PARTS = ("iso18571_corridor", "iso18571_phase", "iso18571_magnitude", "iso18571_slope")
 SCATTER = (
     "peak_normal_force",
     "peak_positive_tangential_force",
@@ -54,7 +56,7 @@ def browser(
             "run": view.run,
             "label": view.label,
             "levels": {key: index[key][view.levels[key]] for key in index},
-            "marks": [_mark(mark) for mark in marks.of(view.assumed)],
+            "marks": [[origin, [_mark(mark) for mark in own]] for origin, own in by_origin(marks.of(view.assumed))],
             "status": states.get(view.case_id, "no FE reference recorded"),
         }
         for view in views
@@ -87,7 +89,7 @@ def _first(views: tuple[CaseView, ...], histories: Mapping[str, Mapping[str, His
 
 
 def _mark(mark: Mark) -> dict[str, str]:
-    return {"text": f"{mark.origin} {mark.code}", "title": mark.text, "href": f"assumption-{mark.code}"}
+    return {"text": mark.code, "title": mark.text, "href": f"assumption-{mark.code}"}
 
 
 def _states(tables: Tables) -> dict[str, str]:
@@ -105,6 +107,9 @@ def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
     columns = list(tables.errors.columns)
     for values in tables.errors.itertuples(index=False, name=None):
         record = dict(zip(columns, values, strict=True))
+        metric = str(record["metric"])
+        if metric in PARTS:
+            continue
         unit = str(record["unit"])
         shown_unit = "" if unit in ("", "1", "-") else f" {unit}"
         reference, predicted = number(record["reference"]), number(record["predicted"])
@@ -113,12 +118,12 @@ def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
         words = wording.verdict(verdict) if verdict else ("" if status == "current" else wording.status(status))
         found.setdefault(str(record["case_id"]), []).append(
             {
-                "q": wording.quantity(str(record["quantity"]), str(record["metric"])),
+                "q": wording.quantity(str(record["quantity"]), metric),
                 "p": wording.source(str(record["predicted_source"])),
                 "r": wording.source(str(record["reference_source"])),
                 "a": "–" if reference is None else wording.digits(reference, 4) + shown_unit,
                 "b": "–" if predicted is None else wording.digits(predicted, 4) + shown_unit,
-                "e": wording.error(number(record["error"]), str(record["error_type"]), shown_unit.strip()),
+                "e": wording.error(number(record["error"]), str(record["error_type"]), shown_unit.strip(), metric),
                 "v": words,
                 "tone": wording.TONES.get(verdict, ""),
                 "note": str(record["note"] or ""),

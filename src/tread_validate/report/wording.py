@@ -8,8 +8,8 @@ from .content import Tone
 
 QUANTITIES = {
     "peak_normal_force": "Peak normal force",
-    "peak_positive_tangential_force": "Peak tangential force, towards leading edge",
-    "peak_negative_tangential_force": "Peak tangential force, towards trailing edge",
+    "peak_positive_tangential_force": "Peak T towards leading edge",
+    "peak_negative_tangential_force": "Peak T towards trailing edge",
     "normal_impulse": "Normal impulse",
     "net_tangential_impulse": "Net tangential impulse",
     "contact_duration": "Contact duration",
@@ -33,6 +33,7 @@ METRICS = {
     "iso18571_magnitude": "ISO/TS 18571 magnitude",
     "iso18571_slope": "ISO/TS 18571 slope",
 }
+SIGNED = ("scalar", "sprague_geers_m")
 GROUPS = {
     "all": "all cases",
     "rig": "rig",
@@ -124,12 +125,12 @@ def percent(value: float | None, decimals: int = 1, sign: bool = False) -> str:
     return text.replace("-", "−") + " %"
 
 
-def error(value: float | None, error_type: str, unit: str = "") -> str:
+def error(value: float | None, error_type: str, unit: str = "", metric: str = "scalar") -> str:
     """Write an error as its type asks: relative in per cent, absolute in its unit, a score as it is."""
     if value is None:
         return "–"
     if error_type == "relative":
-        return percent(value, sign=True)
+        return percent(value, sign=metric in SIGNED)
     if error_type == "score":
         return digits(value)
     return f"{signed(digits(value))} {unit}".strip()

@@ -16,35 +16,26 @@ from ..palette import BLUE, GREEN, VERMILION, Look
 from ..tables import Tables, number
 from .style import Drawn, draw
 
-Runs = tuple[tuple[str, Mapping[str, History]], ...]
-
-
 def history_panel(
     folder: Path,
     key: str,
     title: str,
     caption: str,
-    runs: Runs,
+    histories: Mapping[str, History],
     looks: Mapping[str, Look],
     force: str,
     marks: tuple[Mark, ...],
 ) -> Drawn:
-    """Draw normal or tangential force of one or two cases, every source over each other.
-
-    `runs` holds a name and the histories of each case; the second case is drawn paler.
-    """
+    """Draw the normal or tangential force of one case, every source over each other."""
 
     def paint(axes: Axes) -> None:
-        for index, (name, histories) in enumerate(runs):
-            for source, history in histories.items():
-                look = looks[source]
-                keep = thin(history)
-                values = history.normal_force if force == "normal" else history.tangential_force
-                label = wording.source(source) + (f", {name}" if name else "")
-                width, alpha = (1.6, 1.0) if index == 0 else (1.3, 0.45)
-                axes.plot(
-                    1e3 * history.time[keep], values[keep], linestyle=look.line, color=look.color, lw=width, alpha=alpha, label=label
-                )
+        for source, history in histories.items():
+            look = looks[source]
+            keep = thin(history)
+            values = history.normal_force if force == "normal" else history.tangential_force
+            axes.plot(
+                1e3 * history.time[keep], values[keep], linestyle=look.line, color=look.color, label=wording.source(source)
+            )
         axes.axhline(0.0, color="#57606a", lw=0.7)
         axes.set(xlabel="time from first touch, ms", ylabel=f"{force} force, N")
         axes.legend(loc="best")

@@ -17,7 +17,7 @@ from ...geometry import path_of, read_belt_trace
 from ...study import Case, MeasuredBelt, Rig
 from ...units import MM
 from ..content import Mark
-from ..palette import BLACK, BLUE, GREEN, VERMILION
+from ..palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from .style import WIDTH, Drawn, draw
 
 REACH = 0.16  # m: how far on either side of the patch's middle the belt is drawn
@@ -77,11 +77,14 @@ def rig_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
         axes.add_patch(Circle((0, small - depth), small, fill=False, ec=BLUE, lw=0.6, ls="--"))
         _block(axes, path_of(case), (0.5,))
         axes.plot(0, small - depth, "+", color=BLUE)
-        axes.plot(0, -big, "+", color=BLACK)
-        axes.annotate(f"small wheel, R₁ = {small:g} mm", (0, small), ha="center", va="bottom", fontsize=7.5)
-        axes.annotate(f"big wheel, R₂ = {big:g} mm", (0, -0.62 * big), ha="center", fontsize=7.5)
-        axes.annotate("", (62, 8 + 1.62 * small), (0, 8 + 1.95 * small), arrowprops={"arrowstyle": "->", "color": BLUE})
-        axes.set(aspect="equal", xlim=(-1.9 * small, 1.9 * small), ylim=(-1.02 * big, 2.35 * small), xlabel="x, mm", ylabel="y, mm")
+        axes.annotate(f"big wheel, R₂ = {big:g} mm", (0, -0.45 * small), ha="center", fontsize=7.5)
+        axes.annotate(f"small wheel, R₁ = {small:g} mm", (0, 1.25 * small), ha="center", fontsize=7.5)
+        axes.annotate(
+            "", (0.45 * small, 0.4 * small), (-0.45 * small, 0.4 * small), arrowprops={"arrowstyle": "->", "color": ORANGE}
+        )
+        axes.annotate("block's travel", (0, 0.47 * small), ha="center", fontsize=7.5)
+        limits = {"xlim": (-2.0 * small, 2.0 * small), "ylim": (-0.75 * small, 2.1 * small)}
+        axes.set(aspect="equal", xlabel="x, mm", ylabel="y, mm", **limits)
 
     caption = (
         f"To scale, block {case.block_name.replace('_', ' ')} in mid-contact at {depth:g} mm interference. x is the "
@@ -99,10 +102,11 @@ def belt_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
         axes.plot(x / MM, y / MM, color=BLUE, label="belt (mount of the block)")
         axes.axhline(0.0, color=BLACK, lw=1.2, label="road")
         _block(axes, path, (0.03, 0.5, 0.97))
-        axes.annotate("", (40, 26), (-40, 26), arrowprops={"arrowstyle": "->", "color": BLUE})
-        axes.annotate("travel", (0, 27), ha="center", fontsize=7.5, color=BLUE)
-        axes.set(xlabel="x, mm", ylabel="y, mm", ylim=(-2, 32))
-        axes.legend(loc="upper left", bbox_to_anchor=(0, 1.0))
+        top = float(np.max(y)) / MM
+        axes.annotate("", (40, 0.85 * top), (-40, 0.85 * top), arrowprops={"arrowstyle": "->", "color": ORANGE})
+        axes.annotate("block's travel", (0, 0.88 * top), ha="center", fontsize=7.5)
+        axes.set(xlabel="x, mm", ylabel="y, mm", ylim=(-0.1 * top, 1.35 * top))
+        axes.legend(loc="upper center", ncols=2)
 
     caption = (
         "Stress-free block at three instants of the pass; heights are drawn larger than lengths. The block enters at "
@@ -118,7 +122,7 @@ def _block(axes: Axes, path: BlockPath, instants: tuple[float, ...]) -> None:
         top, face = path.at(s, t), path.free_face(s, t)
         x = np.concatenate([top.x, face[0][::-1]]) / MM
         y = np.concatenate([top.y, face[1][::-1]]) / MM
-        axes.fill(x, y, color="#E69F00", alpha=0.55, lw=0)
+        axes.fill(x, y, color=ORANGE, alpha=0.55, lw=0)
 
 
 def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...]) -> Drawn:

@@ -79,33 +79,31 @@ class Studio:
             )
             for level in temperatures
         ]
-        runs = tuple(
-            (f"{view.levels['temperature_degC']} °C", self.histories.get(view.case_id, {})) for view in chosen
-        )
-        label = chosen[0].label.replace(f" · {chosen[0].levels['temperature_degC']} °C", "")
-        return self._pair("rig-histories", f"Rig: {label}", "As the paper's Fig. 5.", runs, tuple(chosen))
-
-    def _belts(self) -> tuple[Drawn, ...]:
         found: list[Drawn] = []
-        for name, number in ((MeasuredBelt, "14"), (None, "16")):
-            names = self._paths(name) if name is not None else self._paths(None) - self._paths(Rig) - self._paths(MeasuredBelt)
-            views = [view for view in self.views if view.row["path"] in names]
-            if not views:
-                continue
-            view = views[0]
-            runs = (("", self.histories.get(view.case_id, {})),)
-            key = f"belt-histories-{view.row['path']}".replace("_", "-")
-            found += self._pair(key, f"Tyre belt: {view.label}", f"As the paper's Fig. {number}.", runs, (view,))
+        for view in chosen:
+            key = f"rig-histories-{view.levels['temperature_degC']}c"
+            found += self._pair(key, view, "As the paper's Fig. 5.")
         return tuple(found)
 
-    def _pair(self, key: str, label: str, caption: str, runs: forces.Runs, views: tuple[CaseView, ...]) -> tuple[Drawn, ...]:
-        if not any(histories for _, histories in runs):
-            return (Drawn(None, f"{label}: no histories to draw."),)
-        marks = self.marks.of(*(view.assumed for view in views))
-        words = f"{label}. {caption}" + (" Paler lines: the warmer case." if len(runs) > 1 else "")
+    def _belts(self) -> tuple[Drawn, ...]:
+        measured = self._paths(MeasuredBelt)
+        simplified = self._paths(None) - self._paths(Rig) - measured
+        found: list[Drawn] = []
+        for names, number in ((measured, "14"), (simplified, "16")):
+            for view in [view for view in self.views if view.row["path"] in names][:1]:
+                key = f"belt-histories-{view.row['path']}".replace("_", "-")
+                found += self._pair(key, view, f"As the paper's Fig. {number}.")
+        return tuple(found)
+
+    def _pair(self, key: str, view: CaseView, caption: str) -> tuple[Drawn, ...]:
+        histories = self.histories.get(view.case_id, {})
+        if not histories:
+            return (Drawn(None, f"{view.label}: no histories to draw."),)
+        marks = self.marks.of(view.assumed)
+        words = f"{view.label}. {caption}"
         return tuple(
             forces.history_panel(
-                self.folder, f"{key}-{force}", f"{force.capitalize()} force", words, runs, self.looks, force, marks
+                self.folder, f"{key}-{force}", f"{force.capitalize()} force", words, histories, self.looks, force, marks
             )
             for force in ("normal", "tangential")
         )

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure as Canvas
 
 from ...files import atomic_path
 from ..content import Figure, Mark
+from ..marks import in_words
 
 WIDTH, HEIGHT = 4.7, 3.2  # inches: legible on a phone, two abreast on a desk
 RC = {
@@ -79,8 +80,7 @@ def draw(
         canvas, axes = panel(*size)
         paint(axes)
         if marks:
-            note = " · ".join(f"{mark.origin} {mark.code}" for mark in marks)
-            canvas.text(0.995, 0.995, note, ha="right", va="top", fontsize=6.0, color="#6b5200")
+            canvas.text(0.995, 0.995, in_words(marks), ha="right", va="top", fontsize=6.0, color="#6b5200")
             canvas.get_layout_engine().set(rect=(0, 0, 1, 0.965))  # type: ignore[union-attr]
         svg = folder / f"{key}.svg"
         with atomic_path(svg) as temporary:

@@ -72,7 +72,7 @@ TV.browser = (function () {
         body.append(TV.element("tr", { class: "group" }, TV.element("th", { colspan: 5, scope: "colgroup" }, pair)));
         last = pair;
       }
-      const verdict = TV.element("td", { class: row.tone ? row.tone + "-text" : null }, row.v);
+      const verdict = TV.element("td", { class: "verdict " + (row.tone ? row.tone + "-text" : "") }, row.v);
       if (row.note) { verdict.append(TV.element("span", { class: "why" }, row.note)); }
       body.append(TV.element("tr", {}, TV.element("td", {}, row.q), TV.element("td", { class: "num" }, row.a),
         TV.element("td", { class: "num" }, row.b), TV.element("td", { class: "num" }, row.e), verdict));
@@ -88,8 +88,10 @@ TV.browser = (function () {
     document.getElementById("case-status").textContent = current.status;
     const marks = document.getElementById("case-marks");
     marks.replaceChildren();
-    for (const mark of current.marks) {
-      marks.append(TV.element("a", { class: "mark", href: "#" + mark.href, title: mark.title }, mark.text), " ");
+    for (const [origin, members] of current.marks) {
+      const tag = TV.element("span", { class: "mark" }, origin);
+      for (const mark of members) { tag.append(" ", TV.element("a", { href: "#" + mark.href, title: mark.title }, mark.text)); }
+      marks.append(tag, " ");
     }
     document.getElementById("case-link").setAttribute("href", "#case=" + current.id);
   }

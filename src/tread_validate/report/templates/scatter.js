@@ -5,9 +5,10 @@ TV.scatter = (function () {
     const chosen = TV.data.scatter[Number(document.getElementById("scatter-quantity").value)];
     const traces = [];
     const all = chosen.series.flatMap((series) => series.x.concat(series.y));
-    const shapes = [];
+    let ticks = {};
     if (all.length) {
       const low = 0.85 * Math.min(...all), high = 1.18 * Math.max(...all);
+      ticks = TV.logTicks(low, high);
       const line = (factor, name, style) => ({ type: "scatter", mode: "lines", x: [low, high], y: [factor * low, factor * high], name,
         line: style, hoverinfo: "skip" });
       traces.push(line(1, "equal", { color: "#000", width: 1 }));
@@ -16,8 +17,8 @@ TV.scatter = (function () {
           traces.push(line(series.bias, series.label + ": bias", { color: series.color, width: 1.6, dash: "dash" }));
           if (series.sigma !== null) {
             const spread = Math.exp(2 * series.sigma);
-            traces.push({ type: "scatter", mode: "lines", fill: "toself", hoverinfo: "skip", line: { width: 0 }, opacity: 0.25,
-              fillcolor: series.color + "33", name: series.label + ": bias \u00d7 exp(\u00b12\u03c3)",
+            traces.push({ type: "scatter", mode: "lines", fill: "toself", hoverinfo: "skip", line: { width: 0 },
+              fillcolor: series.color + "33", name: series.label + ": \u00b12\u03c3",
               x: [low, high, high, low], y: [low * series.bias * spread, high * series.bias * spread, high * series.bias / spread, low * series.bias / spread] });
           }
         }
@@ -28,8 +29,9 @@ TV.scatter = (function () {
         marker: { color: series.color, symbol: series.symbol, size: 8, line: { color: "#fff", width: 0.8 } },
         hovertemplate: "%{text}<br>reference %{x:.4g}, predicted %{y:.4g}<extra>%{fullData.name}</extra>" });
     }
-    const layout = TV.layout({ shapes, hovermode: "closest", dragmode: TV.coarse ? false : "zoom", height: 520,
-      xaxis: TV.axis("reference, " + chosen.unit, { type: "log", dtick: "D2" }), yaxis: TV.axis("predicted, " + chosen.unit, { type: "log", dtick: "D2" }) });
+    const layout = TV.layout({ hovermode: "closest", dragmode: TV.coarse ? false : "zoom", height: 560,
+      xaxis: TV.axis("reference, " + chosen.unit, Object.assign({ type: "log" }, ticks)),
+      yaxis: TV.axis("predicted, " + chosen.unit, Object.assign({ type: "log" }, ticks)) });
     if (!all.length) {
       layout.annotations = [{ text: "no current reference to compare with", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5 }];
       layout.xaxis = TV.axis("reference, " + chosen.unit); layout.yaxis = TV.axis("predicted, " + chosen.unit);

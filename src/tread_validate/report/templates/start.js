@@ -16,7 +16,7 @@ TV.number = (value) => (value === null ? "\u2013" : TV.minus(Number(value.toPrec
 TV.layout = function (extra) {
   return Object.assign({
     font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: "#1b1f24" },
-    paper_bgcolor: "#fff", plot_bgcolor: "#fff", margin: { l: 62, r: 12, t: 10, b: 44 },
+    paper_bgcolor: "#fff", plot_bgcolor: "#fff", margin: { l: 62, r: 12, t: 40, b: 44 },
     legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" }, hoverlabel: { font: { size: 12 } },
   }, extra);
 };
@@ -24,7 +24,16 @@ TV.axis = function (title, extra) {
   return Object.assign({ title: { text: title, standoff: 8 }, showline: true, linecolor: "#57606a", ticks: "outside", tickcolor: "#57606a",
     gridcolor: "#e6e9ec", zeroline: true, zerolinecolor: "#9aa3ab", automargin: true }, extra);
 };
+/* Ticks at 1, 2 and 5 times powers of ten, written out. */
+TV.logTicks = function (low, high) {
+  const values = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); power += 1) {
+    for (const digit of [1, 2, 5]) { values.push(Number((digit * Math.pow(10, power)).toPrecision(3))); }
+  }
+  return { tickvals: values, ticktext: values.map(String), range: [Math.log10(low), Math.log10(high)] };
+};
 /* A finger on a chart scrolls the page; the tool bar still zooms. */
 TV.coarse = window.matchMedia("(pointer: coarse)").matches;
-TV.config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+TV.config = { displaylogo: false, responsive: true, showSendToCloud: false, plotlyServerURL: "",
+  modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d", "sendChartToCloud"],
   toImageButtonOptions: { format: "svg" }, locale: "en" };
