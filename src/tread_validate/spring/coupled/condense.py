@@ -15,7 +15,7 @@ from scipy.sparse import coo_array, csr_array, diags_array
 
 from ...errors import InputError
 from .body import Body
-from .element import brick_stiffness
+from .element import IncompatibleField
 
 Array = NDArray[np.float64]
 
@@ -44,8 +44,7 @@ def condense(body: Body, poissons_ratio: float) -> FaceStiffness:
     """
     if not 0.0 <= poissons_ratio < 0.5:
         raise InputError("Poisson's ratio", poissons_ratio, "0 or more and less than 0.5")
-    layers = _layers(body, poissons_ratio)
-    diagonal, towards_mount = layers
+    diagonal, towards_mount = _layers(body, poissons_ratio)
     last = len(diagonal) - 1
     # the mount's layer moves as its knots say: its motion loads the layer below it
     load = np.asarray(-(towards_mount[last] @ body.mount_shapes()))
@@ -64,8 +63,22 @@ def condense(body: Body, poissons_ratio: float) -> FaceStiffness:
 
 def _layers(body: Body, poissons_ratio: float) -> tuple[list[csr_array], list[csr_array]]:
     """Return the blocks K[k, k] and K[k, k + 1] of the node layers below the mount, k = 0 on the face."""
-    count = body.nodes_per_layer
-    element = brick_stiffness(body.nodes[body.elements], 1.0, poissons_ratio)
+    whole = assemble(body, poissons_ratio)
+    step = 3 * body.nodes_per_layer
+    diagonal, above = [], []
+    for k in range(body.layers):
+        own, next_ = slice(k * step, (k + 1) * step), slice((k + 1) * step, (k + 2) * step)
+        diagonal.append(csr_array(whole[own, own]))
+        above.append(csr_array(whole[own, next_]))
+    return diagonal, above
+
+
+def assemble(body: Body, poissons_ratio: float) -> csr_array:
+    """Return the stiffness of the whole body in m, per Pa of Young's modulus, with a support on the plane of symmetry.
+
+    Supported degrees of freedom have a 1 on the diagonal and nothing else.
+    """
+    element = IncompatibleField(body.nodes[body.elements], poissons_ratio).stiffness()
     dofs = (3 * body.elements[:, :, None] + np.arange(3)).reshape(body.elements.shape[0], 24)
     size = 3 * body.nodes.shape[0]
     rows, columns = np.repeat(dofs, 24, axis=1).ravel(), np.tile(dofs, (1, 24)).ravel()
@@ -74,11 +87,4 @@ def _layers(body: Body, poissons_ratio: float) -> tuple[list[csr_array], list[cs
     held[3 * body.on_symmetry_plane + 2] = 1.0
     held[(3 * body.unused[:, None] + np.arange(3)).ravel()] = 1.0
     free, fixed = diags_array(1.0 - held), diags_array(held)
-    whole = csr_array(free @ whole @ free + fixed)
-    step = 3 * count
-    diagonal, above = [], []
-    for k in range(body.layers):
-        own, next_ = slice(k * step, (k + 1) * step), slice((k + 1) * step, (k + 2) * step)
-        diagonal.append(csr_array(whole[own, own]))
-        above.append(csr_array(whole[own, next_]))
-    return diagonal, above
+    return csr_array(free @ whole @ free + fixed)

@@ -17,6 +17,7 @@ from ...friction import kinetic_kernel
 Array = NDArray[np.float64]
 
 FREE, STICK, SLIP = 0, 1, 2
+SETTLING = 8
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -86,7 +87,8 @@ def solve_contact(
             stuck2 = f[2] - a[2, 0] * g0 - a[2, 1] * g1 - a[2, 2] * g2
             pull = math.hypot(stuck1, stuck2)
             pressure = max(stuck0, 0.0) / area[i]
-            if before[i] == SLIP:
+            # late sweeps do not let a node go back and forth between the static and the lower kinetic limit
+            if before[i] == SLIP or (state[i] == SLIP and sweep >= SETTLING):
                 limit = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, 0.0)
                 limit = min(limit, static_coefficient)
             else:
@@ -196,15 +198,30 @@ def _slide(
     if length == 0.0:
         d[0], d[1], d[2] = -g0, 0.0, 0.0
         return True
-    # size of the slip: length - mean g - mu(p, v) N = 0 falls with g, so that a guarded Newton step is safe
+    # size of the slip: length - mean g - mu(p, v) N = 0 falls with g; Newton, kept inside a bracket
     pressure = f0 / area
     to_speed = 1.0 / (stiffening * dt)
-    mu = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, slip * to_speed)
-    step = max(0.01 * slip, 1e-6 * length / mean)
-    ahead = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, (slip + step) * to_speed)
-    slope = min(-mean - f0 * (ahead - mu) / step, -0.5 * mean)
-    new = slip - (length - mean * slip - mu * f0) / slope
-    size = length - mean * min(max(new, 0.0), length / mean)
+    low, high = 0.0, length / mean
+    slip = min(slip, high)
+    size = length - mean * slip
+    for _ in range(30):
+        mu = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, slip * to_speed)
+        value = length - mean * slip - mu * f0
+        size = length - mean * slip
+        if abs(value) <= 1e-7 * length:
+            break
+        if value > 0.0:
+            low = slip
+        else:
+            high = slip
+        ahead = 1.001 * slip + 1e-9 * high
+        more = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, ahead * to_speed)
+        slope = -mean - f0 * (more - mu) / (ahead - slip)
+        slip = slip - value / slope if slope < 0.0 else low
+        if not low < slip < high:
+            slip = 0.5 * (low + high)
+        if high - low < 1e-9 * length / mean:
+            break
     c1, c2 = size * e1 / length - f1, size * e2 / length - f2
     determinant = a[1, 1] * a[2, 2] - a[1, 2] * a[1, 2]
     d[0] = -g0

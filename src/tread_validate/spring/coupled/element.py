@@ -21,29 +21,49 @@ CORNERS = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
 GAUSS = CORNERS / np.sqrt(3.0)
 
 
-def brick_stiffness(nodes: Array, youngs_modulus: float, poissons_ratio: float) -> Array:
-    """Return the (m, 24, 24) stiffness in N/m of m bricks; degrees of freedom are (node, component).
+class IncompatibleField:
+    """Shape functions and internal modes of m bricks.
 
     Parameters
     ----------
     nodes : (m, 8, 3) array, m
         Positions of the nodes in the order of `CORNERS`; every Jacobian must be positive.
-    youngs_modulus : float, Pa
     poissons_ratio : float, 0..0.5 exclusive
     """
-    lame, shear = lame_constants(youngs_modulus, poissons_ratio)
-    centre = _jacobian(nodes, np.zeros(3))
-    centre_inverse, centre_det = np.linalg.inv(centre), np.linalg.det(centre)
-    blocks = np.zeros((nodes.shape[0], 33, 33))
-    for point in GAUSS:
-        jacobian = _jacobian(nodes, point)
+
+    def __init__(self, nodes: Array, poissons_ratio: float) -> None:
+        lame, shear = lame_constants(1.0, poissons_ratio)
+        centre = _jacobian(nodes, np.zeros(3))
+        self._nodes = nodes
+        self._centre_inverse, self._centre_det = np.linalg.inv(centre), np.linalg.det(centre)
+        blocks = np.zeros((nodes.shape[0], 33, 33))
+        for point in GAUSS:
+            gradients, det = self._gradients(point)
+            blocks += _isotropic(gradients, lame, shear) * det[:, None, None]
+        self._outer, self._cross = blocks[:, :24, :24], blocks[:, :24, 24:]
+        self._inner_solved = np.linalg.solve(blocks[:, 24:, 24:], np.swapaxes(self._cross, 1, 2))
+
+    def stiffness(self) -> Array:
+        """Return the (m, 24, 24) stiffness in m, per Pa of Young's modulus; degrees of freedom (node, component)."""
+        return np.asarray(self._outer - self._cross @ self._inner_solved, dtype=np.float64)
+
+    def amplitudes(self, displacement: Array) -> Array:
+        """Return the amplitudes of the internal modes, (m, 3, 3), that go with nodal displacements (m, 8, 3)."""
+        flat = displacement.reshape(-1, 24, 1)
+        return np.asarray(-(self._inner_solved @ flat).reshape(-1, 3, 3), dtype=np.float64)
+
+    def gradient(self, displacement: Array, amplitudes: Array, point: Array) -> tuple[Array, Array]:
+        """Return the displacement gradient du_i/dx_j (m, 3, 3) at a Gauss point, and its volume (m,) in m3."""
+        gradients, det = self._gradients(point)
+        both = np.concatenate([displacement, amplitudes], axis=1)
+        return np.einsum("mni,mnj->mij", both, gradients), det
+
+    def _gradients(self, point: Array) -> tuple[Array, Array]:
+        jacobian = _jacobian(self._nodes, point)
         det = np.linalg.det(jacobian)
-        gradients = np.einsum("ni,mij->mnj", shape_derivatives(point), np.linalg.inv(jacobian))
-        bubbles = np.einsum("ni,mij->mnj", np.diag(-2.0 * point), centre_inverse)
-        both = np.concatenate([gradients, bubbles * (centre_det / det)[:, None, None]], axis=1)
-        blocks += _isotropic(both, lame, shear) * det[:, None, None]
-    outer, cross, inner = blocks[:, :24, :24], blocks[:, :24, 24:], blocks[:, 24:, 24:]
-    return np.asarray(outer - cross @ np.linalg.solve(inner, np.swapaxes(cross, 1, 2)), dtype=np.float64)
+        shapes = np.einsum("ni,mij->mnj", shape_derivatives(point), np.linalg.inv(jacobian))
+        bubbles = np.einsum("ni,mij->mnj", np.diag(-2.0 * point), self._centre_inverse)
+        return np.concatenate([shapes, bubbles * (self._centre_det / det)[:, None, None]], axis=1), det
 
 
 def lame_constants(youngs_modulus: float, poissons_ratio: float) -> tuple[float, float]:

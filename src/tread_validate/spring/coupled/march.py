@@ -93,16 +93,14 @@ def march(
             ux = cosine * gx + sine * gy - unloaded[k, i, 0]
             uy = cosine * gy - sine * gx - unloaded[k, i, 1]
             uz = tz - unloaded[k, i, 2]
-            shear = 1.0 + stretch[1] * uy
+            pressed = max(uy, 0.0)
+            shear = 1.0 + stretch[1] * pressed
             q_target[i, 0] = relaxed[i, 0] + stiffening * (ux * shear - w[i, 0])
-            q_target[i, 1] = relaxed[i, 1] + stiffening * (uy * (1.0 + stretch[0] * uy) - w[i, 1])
+            q_target[i, 1] = relaxed[i, 1] + stiffening * (uy * (1.0 + stretch[0] * pressed) - w[i, 1])
             q_target[i, 2] = relaxed[i, 2] + stiffening * (uz * shear - w[i, 2])
             normal[i, 0] = cosine * nx + sine * ny
             normal[i, 1] = cosine * ny - sine * nx
-            if before[i] == FREE:
-                for c in range(3):
-                    q[i, c] = relaxed[i, c] + stiffening * rate[i, c] * dt
-            elif before[i] == SLIP:
+            if before[i] == FREE or before[i] == SLIP:
                 for c in range(3):
                     q[i, c] = relaxed[i, c] + stiffening * rate[i, c] * dt
             else:
@@ -137,10 +135,10 @@ def march(
 
 @numba.njit(cache=True, error_model="numpy")
 def _actual(w: float, factor: float) -> float:
-    """Solve d (1 + factor d) = w for the compression d."""
-    if factor == 0.0:
+    """Solve d (1 + factor d) = w for the compression d; where the face is drawn out, d = w."""
+    if factor == 0.0 or w <= 0.0:
         return w
-    return 2.0 * w / (1.0 + math.sqrt(max(1.0 + 4.0 * factor * w, 0.0)))
+    return 2.0 * w / (1.0 + math.sqrt(1.0 + 4.0 * factor * w))
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -149,7 +147,7 @@ def _positions(unloaded: Array, w: Array, origin: Array, angle: float, stretch: 
     cosine, sine = math.cos(angle), math.sin(angle)
     for i in range(w.shape[0]):
         dy = _actual(w[i, 1], stretch[0])
-        shear = 1.0 + stretch[1] * dy
+        shear = 1.0 + stretch[1] * max(dy, 0.0)
         x, y = unloaded[i, 0] + w[i, 0] / shear, unloaded[i, 1] + dy
         place[i, 0] = origin[0] + cosine * x - sine * y
         place[i, 1] = origin[1] + sine * x + cosine * y
@@ -179,7 +177,7 @@ def _carried(
     rest = 1.0
     if before == FREE:
         dy = _actual(w[1], stretch[0])
-        shear = 1.0 + stretch[1] * dy
+        shear = 1.0 + stretch[1] * max(dy, 0.0)
         fx, fy = unloaded[0] + w[0] / shear, unloaded[1] + dy
         ax, ay = origin[0] + cosine * fx - sine * fy, origin[1] + sine * fx + cosine * fy
         az = unloaded[2] + w[2] / shear

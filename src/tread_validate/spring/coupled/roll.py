@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,12 +11,12 @@ from ...errors import InputError
 from ...friction import FrictionLaw, law
 from ...geometry import Path, path_of
 from ...material import PronySeries, prony_series
-from ...study import Block, Case
+from ...study import Case
 from ...units import MM
-from .body import Body, BodySettings, FreeShape, make_body
-from .condense import FaceStiffness, condense
+from .body import Body, BodySettings
 from .march import march
 from .motion import free_shape, motion
+from .store import condensed
 
 Array = NDArray[np.float64]
 
@@ -40,7 +39,7 @@ class CoupledSettings:
     """
 
     body: BodySettings = field(default_factory=BodySettings)
-    step: float = 1.0 * MM
+    step: float = 0.5 * MM
     longest_step: float = 8.0 * MM
     finite_strain: bool = True
     tolerance: float = 1e-3
@@ -92,32 +91,27 @@ class FacePass:
         return np.asarray(np.where(touching > 0, (self.state == 2) @ self.body.area / np.maximum(touching, 1e-30), 0.0))
 
 
-_BODIES: dict[tuple[Block, FreeShape, BodySettings, float], tuple[Body, FaceStiffness]] = {}
+def roll(
+    case: Case,
+    settings: CoupledSettings | None = None,
+    series: PronySeries | None = None,
+    friction: FrictionLaw | None = None,
+) -> FacePass:
+    """Run one pass of a case whose creep ratio is known.
 
-
-def condensed(block: Block, shape: FreeShape, settings: BodySettings, nu: float) -> tuple[Body, FaceStiffness]:
-    """Return body and face stiffness, remembered for the life of the process."""
-    key = (block, shape, settings, nu)
-    if key not in _BODIES:
-        body = make_body(block, shape, settings)
-        _BODIES[key] = body, condense(body, nu)
-    return _BODIES[key]
-
-
-def roll(case: Case, settings: CoupledSettings | None = None, series: PronySeries | None = None,
-         friction: FrictionLaw | None = None) -> FacePass:
-    """Run one pass; `series` (at the case's temperature) and `friction` replace the case's own where given."""
+    `series` (at the case's temperature) and `friction` replace the case's own where given. Raises `InputError` for a
+    case without a creep ratio, and for a path or a block that will not do.
+    """
     settings = settings or CoupledSettings()
     if case.creep_ratio is None:
         raise InputError(f"case {case.case_id}: creep ratio", "none yet", "a resolved free-rolling case")
     path = path_of(case)
     shape = free_shape(path, case.block)
-    nu = case.compound.poissons_ratio
-    body, face = condensed(case.block, shape, settings.body, nu)
+    body, face, stiffening = condensed(case.block, shape, settings.body, case.compound.poissons_ratio)
     series = series or prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
     friction = friction or law(case.friction, case.root)
     moves = motion(path, shape, body, face, case.height, step_times(path, settings))
-    stretch = np.zeros(2)
+    stretch = np.array([stiffening.normal, stiffening.tangential]) if settings.finite_strain else np.zeros(2)
     force, displacement, state, sweeps = march(
         moves.time, moves.origin, moves.angle, moves.unloaded, body.area, face.stiffness,
         series.long_term_modulus, series.moduli, series.relaxation_times,
