@@ -118,9 +118,7 @@ def write_mesh(deck: Deck, file: FilePath | str) -> None:
         meshio.write(temporary, grid, file_format="vtu")
 
 
-def _motion(
-    case: Case, mesh: BlockMesh, path: Path, pass_time: float
-) -> tuple[list[str], Placement, list[MountTable]]:
+def _motion(case: Case, mesh: BlockMesh, path: Path, pass_time: float) -> tuple[list[str], Placement, list[MountTable]]:
     """Return the text that says how the mount is held, where the block starts, and the mount's velocity tables."""
     if case.is_rig:
         return sections.ring(path), place_on_wheel(mesh, path), []

@@ -204,9 +204,7 @@ def steps(case: Case, path: Path, pass_time: float, tables: Sequence[MountTable]
     interval = number(case.deck.history_interval_us * 1e-6)
     return [
         *lines,
-        keyword(
-            "CONTACT PAIR", INTERACTION="TREAD_ROAD", MECHANICAL_CONSTRAINT="KINEMATIC", CPSET="TREAD_ROAD_PAIR"
-        ),
+        keyword("CONTACT PAIR", INTERACTION="TREAD_ROAD", MECHANICAL_CONSTRAINT="KINEMATIC", CPSET="TREAD_ROAD_PAIR"),
         "FACE, ROAD",
         keyword("OUTPUT", "FIELD", NUMBER_INTERVAL=1),
         keyword("NODE OUTPUT"),
@@ -261,5 +259,5 @@ def _plane_reach(path: Path, creep_ratio: float, points: FloatArray, pass_time: 
 
 def _pairs(time: FloatArray, value: FloatArray) -> list[str]:
     """Return (time, value) pairs, four to a line; values to 1e-7 mm/s."""
-    text = ["%.9f, %.7f" % pair for pair in zip(time.tolist(), value.tolist(), strict=True)]
+    text = [f"{t:.9f}, {v:.7f}" for t, v in zip(time.tolist(), value.tolist(), strict=True)]
     return [", ".join(text[i : i + 4]) for i in range(0, len(text), 4)]

@@ -26,14 +26,10 @@ def check_contact(deck: Deck, names: Names, findings: Findings) -> None:
                     findings.add(line, "dangling-nset", f"*SURFACE: there is no node or node set {line.fields[0]}")
         elif kind in ANALYTICAL:
             _check_profile(block, kind, findings)
-    analytical = {
-        name for name, block in names.named["SURFACE"].items() if block.parameters.get("TYPE") in ANALYTICAL
-    }
+    analytical = {name for name, block in names.named["SURFACE"].items() if block.parameters.get("TYPE") in ANALYTICAL}
     held = {(block.parameters.get("ANALYTICAL SURFACE") or "").upper() for block in deck.named("RIGID BODY")}
     for name in sorted(analytical - held):
-        findings.add(
-            names.named["SURFACE"][name], "loose-surface", f"analytical surface {name} is in no *RIGID BODY"
-        )
+        findings.add(names.named["SURFACE"][name], "loose-surface", f"analytical surface {name} is in no *RIGID BODY")
     for block in deck.named("CONTACT PAIR"):
         _check_pair(block, names, analytical, findings)
     if names.explicit:
@@ -125,9 +121,7 @@ def _numbers(line: DataLine, first: int, count: int) -> list[float] | None:
 def _check_pair(block: Block, names: Names, analytical: set[str], findings: Findings) -> None:
     interaction = block.parameters.get("INTERACTION")
     if interaction and not names.has("SURFACE INTERACTION", interaction):
-        findings.add(
-            block, "dangling-interaction", f"*CONTACT PAIR: there is no *SURFACE INTERACTION {interaction}"
-        )
+        findings.add(block, "dangling-interaction", f"*CONTACT PAIR: there is no *SURFACE INTERACTION {interaction}")
     for line in block.data:
         pair = [text.upper() for text in line.fields[:2]]
         for name in pair:
@@ -151,7 +145,10 @@ def _check_friction(deck: Deck, names: Names, findings: Findings) -> None:
     owner: Block | None = None
     general = next(deck.named("CONTACT"), None)
     assigned = {
-        line.fields[-1].upper() for block in deck.named("CONTACT PROPERTY ASSIGNMENT") for line in block.data if line.fields
+        line.fields[-1].upper()
+        for block in deck.named("CONTACT PROPERTY ASSIGNMENT")
+        for line in block.data
+        if line.fields
     }
     for line in (line for block in deck.named("CONTACT PROPERTY ASSIGNMENT") for line in block.data):
         if line.fields and not names.has("SURFACE INTERACTION", line.fields[-1]):
@@ -176,12 +173,16 @@ def _check_friction(deck: Deck, names: Names, findings: Findings) -> None:
                 )
             if kind != "FRIC" and pairs:
                 findings.add(
-                    block, "vfric-general-contact", f"USER={kind} works with general contact only; a pair takes USER=FRIC"
+                    block,
+                    "vfric-general-contact",
+                    f"USER={kind} works with general contact only; a pair takes USER=FRIC",
                 )
             for pair in pairs:
                 if kind == "FRIC" and pair.parameters.get("MECHANICAL CONSTRAINT") == "PENALTY":
                     findings.add(
-                        pair, "vfric-penalty", "VFRIC with MECHANICAL CONSTRAINT=PENALTY is not to be trusted: KINEMATIC"
+                        pair,
+                        "vfric-penalty",
+                        "VFRIC with MECHANICAL CONSTRAINT=PENALTY is not to be trusted: KINEMATIC",
                     )
         elif block.data and block.data[0].fields[0] and is_number(block.data[0].fields[0]):
             value = float(block.data[0].fields[0])
@@ -237,7 +238,14 @@ def _check_output(deck: Deck, names: Names, findings: Findings) -> None:
             name = block.parameters.get("NSET")
             if name and name not in names.nsets:
                 findings.add(block, "dangling-nset", f"*{block.keyword}: there is no node set {name}")
-        if block.keyword in ("ELEMENT OUTPUT", "ENERGY OUTPUT", "EL FILE", "FIXED MASS SCALING", "MASS", "INTEGRATED OUTPUT"):
+        if block.keyword in (
+            "ELEMENT OUTPUT",
+            "ENERGY OUTPUT",
+            "EL FILE",
+            "FIXED MASS SCALING",
+            "MASS",
+            "INTEGRATED OUTPUT",
+        ):
             name = block.parameters.get("ELSET")
             if name and name not in names.elsets:
                 findings.add(block, "dangling-elset", f"*{block.keyword}: there is no element set {name}")

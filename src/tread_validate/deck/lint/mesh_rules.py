@@ -51,9 +51,7 @@ def _check_element_nodes(names: Names, findings: Findings) -> None:
         bad = whole[least <= 0.0]
         for count, row in enumerate(bad[:MOST]):
             more = f" (and {bad.size - MOST} more elements)" if count == MOST - 1 and bad.size > MOST else ""
-            findings.add(
-                part.lines[row], "negative-jacobian", f"element {part.ids[row]} is inside out or folded{more}"
-            )
+            findings.add(part.lines[row], "negative-jacobian", f"element {part.ids[row]} is inside out or folded{more}")
 
 
 def _least_jacobian(corners: NDArray[np.float64]) -> NDArray[np.float64]:

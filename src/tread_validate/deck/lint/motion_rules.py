@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from ...inp import Block, DataLine, Deck
 from .findings import Findings
 from .names import Names
@@ -53,9 +55,7 @@ def _amplitude(block: Block, findings: Findings) -> Pairs:
     return pairs
 
 
-def _check_boundary(
-    block: Block, inside: bool, names: Names, amplitudes: dict[str, Pairs], findings: Findings
-) -> None:
+def _check_boundary(block: Block, inside: bool, names: Names, amplitudes: dict[str, Pairs], findings: Findings) -> None:
     kind = block.parameters.get("TYPE") or "DISPLACEMENT"
     for line in block.data:
         fields = line.fields
@@ -66,7 +66,9 @@ def _check_boundary(
         if not all(text.isdigit() and 1 <= int(text) <= 6 for text in dofs) or (
             len(dofs) == 2 and int(dofs[1]) < int(dofs[0])
         ):
-            findings.add(line, "dof", f"*BOUNDARY: degrees of freedom {', '.join(dofs)}: expected 1 to 6, first <= last")
+            findings.add(
+                line, "dof", f"*BOUNDARY: degrees of freedom {', '.join(dofs)}: expected 1 to 6, first <= last"
+            )
         size = fields[3] if len(fields) > 3 else ""
         if size and not is_number(size):
             findings.add(line, "not-a-number", f"*BOUNDARY: {size} is not a number")
@@ -97,9 +99,9 @@ def _check_boundary(
 
 
 def _has_kinks(pairs: Pairs) -> bool:
-    slopes = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(pairs, pairs[1:], strict=False)]
+    slopes = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in pairwise(pairs)]
     scale = max((abs(slope) for slope in slopes), default=0.0)
-    return any(abs(b - a) > 0.2 * scale for a, b in zip([0.0, *slopes], slopes, strict=False))
+    return any(abs(b - a) > 0.2 * scale for a, b in pairwise([0.0, *slopes]))
 
 
 def _known_nodes(line: DataLine, text: str, names: Names, findings: Findings) -> None:
@@ -167,7 +169,9 @@ def _check_rigid_bodies(deck: Deck, names: Names, findings: Findings) -> None:
         for member in dict.fromkeys(members):
             if member in body_of and body_of[member] is not block:
                 findings.add(
-                    block, "two-rigid-bodies", f"node {member} is already in the rigid body of line {body_of[member].line}"
+                    block,
+                    "two-rigid-bodies",
+                    f"node {member} is already in the rigid body of line {body_of[member].line}",
                 )
                 break
         body_of.update(dict.fromkeys(members, block))
@@ -185,7 +189,7 @@ def _check_rigid_bodies(deck: Deck, names: Names, findings: Findings) -> None:
                 findings.add(
                     block,
                     "massless-body",
-                    f"the rigid body has no mass and its reference node {node} is free in {listed}: prescribe or add mass",
+                    f"massless rigid body: reference node {node} is free in {listed}; prescribe these or add mass",
                 )
 
 

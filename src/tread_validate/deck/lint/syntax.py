@@ -71,9 +71,7 @@ def _check_data(block: Block, known: Keyword, findings: Findings) -> None:
     if len(block.data) < least and "INPUT" not in block.parameters:
         findings.add(block, "data-lines", f"*{block.keyword}: {len(block.data)} data lines, expected at least {least}")
     if 0 <= most < len(block.data):
-        findings.add(
-            block.data[most], "data-lines", f"*{block.keyword}: more data lines than the {most} it may have"
-        )
+        findings.add(block.data[most], "data-lines", f"*{block.keyword}: more data lines than the {most} it may have")
     for line in block.data if most < 0 else block.data[:most]:
         if len(line.text) > 256:
             findings.add(line, "line-length", f"{len(line.text)} characters, at most 256")
