@@ -12,7 +12,7 @@ from .rows import AGREES, CANNOT_TELL, DISAGREES, Verdict
 from .runs import Runs, SourceRun
 
 CLAIM_COLUMNS = (
-    "claim_id", "section", "statement", "quantity", "unit", "published", "published_low", "published_high",
+    "claim_id", "kind", "section", "statement", "quantity", "unit", "published", "published_low", "published_high",
     "spread_kind", "source", "case_ids", "computed", "error", "error_type", "verdict", "status", "note", "assumed",
 )  # fmt: skip
 
@@ -38,9 +38,15 @@ class Computed:
 
 @dataclass(frozen=True)
 class Claim:
-    """One published number next to one computed number."""
+    """One published number next to one computed number.
+
+    `kind` says what agreement would be worth: ``input``, the study uses the number; ``study``, it follows from the
+    study's inputs without a run; ``tuned``, a stand-in was made to meet it; ``model``, a run or a regression of runs
+    gives it; ``published``, arithmetic on printed numbers; ``context``, not compared.
+    """
 
     published: PublishedValue
+    kind: str
     source: str
     computed: Computed
     low: float | None
@@ -126,7 +132,7 @@ def is_measured(case: Case) -> bool:
     return case.path.kind == "measured_belt"
 
 
-def judge(published: PublishedValue, source: str, computed: Computed) -> Claim:
+def judge(published: PublishedValue, kind: str, source: str, computed: Computed) -> Claim:
     """Compare a computed value with what the published one stands for.
 
     The published interval decides: ``sd`` and ``range`` are first turned into the 95 % interval of the mean (four and
@@ -135,23 +141,23 @@ def judge(published: PublishedValue, source: str, computed: Computed) -> Claim:
     """
     low, high, note = interval(published)
     value, target = computed.value, published.value
-    error, kind = _error(value, target)
+    error, error_type = _error(value, target)
     note = "; ".join(part for part in (computed.note, note) if part)
     if value is None:
-        return Claim(published, source, computed, low, high, error, kind, CANNOT_TELL, note)
+        return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)
     if _too_wide(published, low, high):
         note = "; ".join(part for part in (note, "published spread too wide to tell") if part)
-        return Claim(published, source, computed, low, high, error, kind, CANNOT_TELL, note)
+        return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)
     if low is None or high is None:
         if target is None:
-            return Claim(published, source, computed, low, high, error, kind, CANNOT_TELL, note)
+            return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)
         met = abs(value - target) <= 5e-4 * abs(target)
     elif published.spread_kind == "exists":
         met = low < value <= high
     else:
         slack = 1e-9 * max(abs(low), abs(high))
         met = low - slack <= value <= high + slack
-    return Claim(published, source, computed, low, high, error, kind, AGREES if met else DISAGREES, note)
+    return Claim(published, kind, source, computed, low, high, error, error_type, AGREES if met else DISAGREES, note)
 
 
 def interval(published: PublishedValue) -> tuple[float | None, float | None, str]:

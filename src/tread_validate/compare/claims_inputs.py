@@ -33,7 +33,7 @@ def _of(which: str, value: Callable[[Case], Any], choose: Callable[[list[float]]
     return compute
 
 
-def _belt_file(key: str, scale: float = 1.0) -> Compute:
+def _belt_file(key: str) -> Compute:
     def compute(evidence: Evidence, source: str) -> Computed:
         for case in evidence.belt_cases():
             if is_measured(case):
@@ -44,7 +44,7 @@ def _belt_file(key: str, scale: float = 1.0) -> Compute:
                 number = len(data["traces"]) if key == "traces" and "traces" in data else data.get(key)
                 if not isinstance(number, int | float):
                     return nothing(f"the study's belt file does not say {key}")
-                return Computed(float(number) * scale, (case.case_id,))
+                return Computed(float(number), (case.case_id,))
         return nothing("the study has no measured profile")
 
     return compute
@@ -88,10 +88,8 @@ INPUTS: dict[str, Compute] = {
     "fig5_speed": _of(RIG, lambda case: _rounded(case.speed_rpm), _level(300.0)),
     "trace_count": _belt_file("traces"),
     "trace_pitch": _belt_file("pitch_mm"),
-    "trace_resolution": _belt_file("resolution_um"),
     "edge_radius": _of(BELT, lambda case: _metres(_simplified("edge_radius_mm")(case))),
     "static_friction": _of(BELT, lambda case: case.friction.static_coefficient),
-    "lumped_mass_share": lambda evidence, source: nothing("a constant of the spring model, not of the study"),
     "block_length": _of(BELT, lambda case: _rounded(1e3 * case.length)),
     "block_width": _of(BELT, lambda case: _rounded(1e3 * case.width)),
     "block_height": _of(BELT, lambda case: _rounded(1e3 * case.height)),

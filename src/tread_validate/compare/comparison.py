@@ -18,6 +18,7 @@ from .scalars import Scalars, scalars
 
 Uncertainty = float | Mapping[str, float] | None
 Names = tuple[str, str, str]
+TANGENTIAL_PEAKS = ("peak_positive_tangential_force", "peak_negative_tangential_force")
 
 
 def compare(
@@ -91,52 +92,72 @@ def scalar_row(
     predicted: float,
     scales: Mapping[str, float],
     names: Names,
-    uncertainty: float | None,
+    spread: float | None,
 ) -> MetricRow:
-    """Return the row of one scalar; `scales` holds the reference's scalars that tolerances are shares of.
+    """Return the row of one scalar.
 
-    `uncertainty` is the reference's relative uncertainty in the quantity; for one that is judged absolutely, relative
-    to its scale.
+    Parameters
+    ----------
+    scales : mapping
+        The reference's scalars, of which tolerances are shares.
+    spread : float or None
+        Uncertainty of the reference value, in the quantity's unit; None where it is not known.
     """
     small = quantity.small is not None and abs(reference) < SMALL_SHARE * _scale(quantity.small, scales)
     case_id, reference_source, predicted_source = names
     kind: ErrorType
     if quantity.scale == "itself" and not small and reference != 0.0:
+        kind = "relative"
         error = (predicted - reference) / reference
-        spread = None if uncertainty is None else uncertainty * (1.0 + abs(error))
-        tolerance, kind = quantity.tolerance, "relative"
+        moved = None if spread is None else spread / abs(reference) * (1.0 + abs(error))
+        tolerance = quantity.tolerance
     else:
-        error = predicted - reference
-        if quantity.scale == "itself":
-            scale = _scale(quantity.small, scales) if quantity.small is not None else 0.0
-            tolerance = quantity.tolerance * SMALL_SHARE * scale
-            spread = None if uncertainty is None else uncertainty * abs(reference)
-        else:
-            scale = _scale(quantity.scale, scales)
-            tolerance = quantity.tolerance * scale
-            spread = None if uncertainty is None else uncertainty * scale
         kind = "absolute"
+        error = predicted - reference
+        moved = spread
+        if quantity.scale != "itself":
+            tolerance = quantity.tolerance * _scale(quantity.scale, scales)
+        else:
+            tolerance = quantity.tolerance * SMALL_SHARE * (_scale(quantity.small, scales) if quantity.small else 0.0)
     note = f"small reference: judged in {quantity.unit}" if small and quantity.unit != "1" else ""
     return MetricRow(
         case_id, quantity.name, "scalar", reference_source, predicted_source, reference, predicted, quantity.unit,
-        error, kind, spread, tolerance, abs(error) <= tolerance, verdict(error, tolerance, spread), "current", note,
+        error, kind, moved, tolerance, abs(error) <= tolerance, verdict(error, tolerance, moved), "current", note,
     )  # fmt: skip
 
 
 def _scalar_row(quantity: Quantity, a: Scalars, b: Scalars, names: Names, uncertainty: Uncertainty) -> MetricRow:
     scales = a.as_dict()
-    value = _for(uncertainty, quantity.name)
-    if quantity.name == "late_sign_change" or (quantity.unit == "s" and not isinstance(uncertainty, Mapping)):
-        value = None if uncertainty is None else 0.0  # yes or no; times hardly depend on the mesh
-    if quantity.name == "net_tangential_impulse" and not isinstance(uncertainty, Mapping) and value is not None:
-        # the mesh error applies to the tangential force, not to the normal impulse that sets the scale
-        value *= a.tangential_to_normal_ratio
-    return scalar_row(quantity, scales[quantity.name], b.as_dict()[quantity.name], scales, names, value)
+    reference, predicted = scales[quantity.name], b.as_dict()[quantity.name]
+    return scalar_row(quantity, reference, predicted, scales, names, _spread(quantity, a, uncertainty))
+
+
+def _spread(quantity: Quantity, reference: Scalars, uncertainty: Uncertainty) -> float | None:
+    """Return what the uncertainty means for one scalar, in its unit.
+
+    One number is a relative error of all forces: it moves forces and impulses, leaves times and signs alone, and says
+    nothing about how much of the time the block slips.
+    """
+    if uncertainty is None:
+        return None
+    if quantity.name == "late_sign_change":
+        return 0.0
+    value = reference.as_dict()[quantity.name]
+    if isinstance(uncertainty, Mapping):
+        known = uncertainty.get(quantity.name)
+        return None if known is None else known * abs(value)
+    if quantity.unit == "s":
+        return 0.0
+    if quantity.name == "slipping_share":
+        return None
+    if quantity.name == "net_tangential_impulse":
+        return uncertainty * reference.tangential_to_normal_ratio * reference.normal_impulse
+    return uncertainty * abs(value)
 
 
 def _history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertainty: Uncertainty) -> list[MetricRow]:
     reference, predicted = fine.forces(quantity)
-    spread = _for(uncertainty, quantity)
+    spread = _amplitude(uncertainty, quantity)
     values: dict[str, tuple[float, float, float, str]] = {}
     notes: dict[str, str] = {}
     try:
@@ -196,5 +217,12 @@ def _scale(name: Scale, scales: Mapping[str, float]) -> float:
     return 1.0 if name == "one" else scales[name]
 
 
-def _for(uncertainty: Uncertainty, name: str) -> float | None:
-    return uncertainty.get(name) if isinstance(uncertainty, Mapping) else uncertainty
+def _amplitude(uncertainty: Uncertainty, quantity: str) -> float | None:
+    """Return the relative amplitude error of a force history: its own, or that of its peaks."""
+    if not isinstance(uncertainty, Mapping):
+        return uncertainty
+    if quantity in uncertainty:
+        return uncertainty[quantity]
+    peaks = ("peak_normal_force",) if quantity == "normal_force" else TANGENTIAL_PEAKS
+    known = [uncertainty[name] for name in peaks if name in uncertainty]
+    return max(known) if known else None

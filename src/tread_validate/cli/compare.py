@@ -1,0 +1,49 @@
+"""`tread-validate compare`: one predicted history against its reference."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    reference: Annotated[Path, typer.Argument(help="reference history (CSV)")],
+    predicted: Annotated[Path, typer.Argument(help="predicted history (CSV)")],
+    case_id: Annotated[str, typer.Option("--case", help="name of the case in the rows")] = "",
+    uncertainty: Annotated[
+        float | None,
+        typer.Option("--uncertainty", min=0.0, max=1.0, help="relative uncertainty of the reference's forces"),
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="JSON in place of CSV")] = False,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="write to this file")] = None,
+) -> None:
+    """Compare two force histories: a row for every scalar and every history score.
+
+    Example: tread-validate compare reference.csv predicted.csv --uncertainty 0.02
+    """
+    from dataclasses import asdict
+    from json import dumps
+
+    from ..compare import METRIC_COLUMNS, compare
+    from ..compare.csv_table import table_text
+    from ..files import write_text
+    from ..history import History
+
+    a, b = History.read_csv(reference), History.read_csv(predicted)
+    name = case_id or a.provenance.get("case_id", "") or b.provenance.get("case_id", "")
+    rows = compare(
+        a,
+        b,
+        case_id=name,
+        reference_source=a.provenance.get("producer", reference.stem),
+        predicted_source=b.provenance.get("producer", predicted.stem),
+        uncertainty=uncertainty,
+    )
+    text = dumps([asdict(row) for row in rows], indent=2) + "\n" if json else None
+    text = text or table_text(METRIC_COLUMNS, map(asdict, rows))
+    if output is not None:
+        write_text(output, text)
+    else:
+        typer.echo(text, nl=False)

@@ -1,0 +1,51 @@
+"""`tread-validate regress`: how peak force depends on speed and temperature."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    peaks: Annotated[Path, typer.Argument(help="table of peaks (CSV)")],
+    exclude: Annotated[
+        list[float] | None,
+        typer.Option("--exclude-mm", help="interference left out; repeatable; 0.3 if left out"),
+    ] = None,
+    all_interferences: Annotated[bool, typer.Option("--all-interferences", help="leave none out")] = False,
+    zero: Annotated[float, typer.Option("--zero-degC", help="reference temperature of a_theta, degC")] = 22.0,
+    level: Annotated[float, typer.Option("--level", min=0.5, max=0.999, help="confidence level")] = 0.95,
+    json: Annotated[bool, typer.Option("--json", help="JSON in place of CSV")] = False,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="write to this file")] = None,
+) -> None:
+    """Fit a_v and a_theta, set by set and as means, with spread and confidence intervals.
+
+    The table has the columns shape, temperature_degC, interference_mm, speed_m_s, peak_normal_force_N, and if there
+    are several, source and case_id.
+
+    Example: tread-validate regress results/tables/peaks.csv
+    """
+    from dataclasses import asdict, fields
+    from json import dumps
+
+    from ..compare.csv_table import table_text
+    from ..compare.peaks_file import read_peaks
+    from ..compare.regression import EXCLUDED_INTERFERENCES, Coefficient, regress
+    from ..files import write_text
+
+    left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)
+    rows = [
+        row
+        for source, members in read_peaks(peaks).items()
+        for row in regress(
+            members, source=source, exclude=left_out, reference_temperature=zero, level=level
+        ).coefficients
+    ]
+    columns = tuple(item.name for item in fields(Coefficient))
+    text = dumps([asdict(row) for row in rows], indent=2) + "\n" if json else table_text(columns, map(asdict, rows))
+    if output is not None:
+        write_text(output, text)
+    else:
+        typer.echo(text, nl=False)

@@ -1,0 +1,49 @@
+"""`tread-validate tables`: from runs and references to the tables of the comparison."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    study: Annotated[Path, typer.Argument(help="study file (YAML)")],
+    spring: Annotated[Path, typer.Option("--spring", help="folder of the spring runs")] = Path("results/spring"),
+    references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
+    decks: Annotated[Path, typer.Option("--decks", help="folder of the generated decks")] = Path("fe_inputs"),
+    output: Annotated[Path, typer.Option("-o", "--output", help="folder for the tables")] = Path("results/tables"),
+    exclude: Annotated[
+        list[float] | None,
+        typer.Option("--exclude-mm", help="interference left out of the regressions; repeatable; 0.3 if left out"),
+    ] = None,
+    all_interferences: Annotated[
+        bool, typer.Option("--all-interferences", help="leave no interference out of the regressions")
+    ] = False,
+) -> None:
+    """Compare every run with its reference and the study with the paper.
+
+    Example: tread-validate tables config/study.yaml --spring results/spring --decks fe_inputs -o results/tables
+    """
+    from ..compare import build_tables
+    from ..compare.regression import EXCLUDED_INTERFERENCES
+
+    left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)
+    found = build_tables(study, spring, references, output, decks, left_out)
+    for source in found.sources:
+        runs = [run for (name, _), run in found.runs.items() if name == source]
+        current = sum(run.status == "current" for run in runs)
+        typer.echo(f"{source}: {current} of {len(runs)} runs can be compared")
+    told = [row for row in found.rows if row.verdict != "cannot tell"]
+    agree = sum(row.verdict == "agrees" for row in told)
+    typer.echo(
+        f"{len(found.rows)} rows: {agree} agree, {len(told) - agree} disagree, {len(found.rows) - len(told)} open"
+    )
+    claims = [claim for claim in found.claims if claim.verdict != "cannot tell"]
+    agree = sum(claim.verdict == "agrees" for claim in claims)
+    typer.echo(
+        f"{len(found.claims)} published claims: {agree} agree, {len(claims) - agree} disagree, "
+        f"{len(found.claims) - len(claims)} open"
+    )
+    typer.echo(f"tables in {output}")

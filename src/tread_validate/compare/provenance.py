@@ -1,0 +1,80 @@
+"""What the tables were made from."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from ..provenance import commit, sha256_file, version
+from ..study import Case, LoadedStudy
+from .coefficients import SPEEDS_ASSUMED, ZERO_ASSUMED
+from .regression import REFERENCE_TEMPERATURE
+from .runs import Runs
+
+PACKAGES = ("numpy", "scipy", "numba", "pandas", "pydantic", "statsmodels", "objective-rating-metrics", "frictionless")
+
+
+def provenance(
+    study: LoadedStudy, cases: Sequence[Case], runs: Runs, sources: Sequence[str], reference_dir: Path
+) -> dict[str, Any]:
+    """Return commit, versions, input digests and the state of every source; nothing that changes from run to run."""
+    files = {study.source, *(path for case in cases for path in case.input_files())}
+    files |= {reference_dir / "datapackage.yaml", reference_dir / "published" / "published.csv"}
+    return {
+        "commit": commit(),
+        "version": version(),
+        "study": study.model.name,
+        "study_digest": study.digest,
+        "packages": {name: metadata.version(name) for name in PACKAGES},
+        "inputs": {_shown(path, study.root): sha256_file(path) for path in sorted(files) if path.is_file()},
+        "sources": {
+            source: dict(sorted(Counter(run.status for (name, _), run in runs.items() if name == source).items()))
+            for source in sources
+        },
+    }
+
+
+def assumed_inputs(cases: Sequence[Case]) -> list[dict[str, Any]]:
+    """Return every assumed or synthetic input with the number of cases that rest on it."""
+    found: dict[tuple[str, str], tuple[str, int]] = {}
+    for case in cases:
+        for name, item in (
+            (f"compound {case.compound_name}", case.compound),
+            (f"friction law {case.friction_name}", case.friction),
+            (f"block {case.block_name}", case.block),
+            (f"path {case.path_name}", case.path),
+        ):
+            if item.origin in ("assumed", "synthetic"):
+                source, count = found.get((name, item.origin), (item.source, 0))
+                found[name, item.origin] = (source, count + 1)
+    rows = [
+        {"input": name, "origin": origin, "source": source, "cases": count}
+        for (name, origin), (source, count) in found.items()
+    ]
+    rig = sum(case.is_rig for case in cases)
+    if rig:
+        rows += [
+            {
+                "input": ZERO_ASSUMED.removesuffix(" (assumed)"),
+                "origin": "assumed",
+                "source": f"{REFERENCE_TEMPERATURE:g} degC; the paper does not print it",
+                "cases": rig,
+            },
+            {
+                "input": SPEEDS_ASSUMED.removesuffix(" (assumed)"),
+                "origin": "assumed",
+                "source": "the paper prints the lowest, the highest and one other speed of the rig",
+                "cases": rig,
+            },
+        ]
+    return rows
+
+
+def _shown(path: Path, root: Path) -> str:
+    try:
+        return path.resolve().relative_to(root.resolve()).as_posix()
+    except ValueError:
+        return path.name
