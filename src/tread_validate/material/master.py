@@ -1,0 +1,241 @@
+"""Master curve: isothermal sweeps shifted to one temperature, with given or fitted WLF constants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline
+from scipy.optimize import least_squares
+
+from ..errors import InputError
+from ..study import Wlf
+from .smoothing import Smoothed, robust_smooth
+from .sweeps import Sweep
+from .wlf import referred_to, relative_shift
+
+Array = NDArray[np.float64]
+VerticalShift = Literal["none", "fitted"]
+
+KNOTS_PER_DECADE = 1.0
+RIDGE = 1e-3
+
+
+@dataclass(frozen=True)
+class SmoothedSweep:
+    """A sweep with its smoothed moduli (log-log), (n,) each."""
+
+    raw: Sweep
+    storage: Smoothed
+    loss: Smoothed
+
+    @property
+    def storage_modulus(self) -> Array:
+        """Smoothed E', Pa."""
+        return np.exp(self.storage.values)
+
+    @property
+    def loss_modulus(self) -> Array:
+        """Smoothed E'', Pa."""
+        return np.exp(self.loss.values)
+
+    @property
+    def outliers(self) -> NDArray[np.bool_]:
+        """Points set aside in E' or E''."""
+        return np.asarray(self.storage.outliers | self.loss.outliers, dtype=np.bool_)
+
+
+def smooth_sweeps(sweeps: tuple[Sweep, ...]) -> tuple[SmoothedSweep, ...]:
+    """Smooth the logarithms of E' and E'' of each sweep over the logarithm of frequency."""
+    return tuple(
+        SmoothedSweep(
+            sweep,
+            robust_smooth(np.log(sweep.angular_frequency), np.log(sweep.storage_modulus)),
+            robust_smooth(np.log(sweep.angular_frequency), np.log(sweep.loss_modulus)),
+        )
+        for sweep in sweeps
+    )
+
+
+@dataclass(frozen=True)
+class MasterCurve:
+    """Moduli of all sweeps against reduced frequency, in order of frequency.
+
+    Attributes
+    ----------
+    angular_frequency : (m,) array, rad/s
+        w a_T at the reference temperature.
+    storage_modulus, loss_modulus : (m,) arrays, Pa
+        Smoothed, times the vertical shift.
+    raw_storage_modulus, raw_loss_modulus : (m,) arrays, Pa
+        As measured, shifted in the same way.
+    sweep : (m,) array of int
+        Number of the sweep each point is from.
+    outlier : (m,) bool array
+    reference_temperature : float, degC
+    temperatures, shift_factors, vertical_factors : (k,) arrays
+        Of each sweep: degC, a_T relative to the reference temperature, factor on the moduli.
+    """
+
+    angular_frequency: Array
+    storage_modulus: Array
+    loss_modulus: Array
+    raw_storage_modulus: Array
+    raw_loss_modulus: Array
+    sweep: NDArray[np.int64]
+    outlier: NDArray[np.bool_]
+    reference_temperature: float
+    temperatures: Array
+    shift_factors: Array
+    vertical_factors: Array
+
+
+def shift(
+    sweeps: tuple[SmoothedSweep, ...], wlf: Wlf, reference_temperature: float, vertical: Array | None = None
+) -> MasterCurve:
+    """Return the master curve at `reference_temperature` in degC; `vertical` multiplies the moduli of each sweep."""
+    temperatures = np.array([sweep.raw.temperature for sweep in sweeps])
+    factors = relative_shift(temperatures, reference_temperature, wlf)
+    heights = np.ones(len(sweeps)) if vertical is None else vertical
+    w = np.concatenate([s.raw.angular_frequency * a for s, a in zip(sweeps, factors, strict=True)])
+    number = np.concatenate([np.full(s.raw.line.size, k) for k, s in enumerate(sweeps)])
+    order = np.argsort(w, kind="stable")
+
+    def gather(parts: list[Array]) -> Array:
+        return np.concatenate([part * b for part, b in zip(parts, heights, strict=True)])[order]
+
+    return MasterCurve(
+        angular_frequency=w[order],
+        storage_modulus=gather([s.storage_modulus for s in sweeps]),
+        loss_modulus=gather([s.loss_modulus for s in sweeps]),
+        raw_storage_modulus=gather([s.raw.storage_modulus for s in sweeps]),
+        raw_loss_modulus=gather([s.raw.loss_modulus for s in sweeps]),
+        sweep=number[order].astype(np.int64),
+        outlier=np.concatenate([s.outliers for s in sweeps])[order],
+        reference_temperature=reference_temperature,
+        temperatures=temperatures,
+        shift_factors=factors,
+        vertical_factors=heights,
+    )
+
+
+@dataclass(frozen=True)
+class WlfFit:
+    """WLF constants that make the sweeps overlap best.
+
+    Attributes
+    ----------
+    wlf : Wlf
+        Referred to the reference temperature.
+    covariance : (2, 2) array
+        Of C1 and C2 (K).
+    vertical_factors : (k,) array
+    misfit : float
+        Root mean square distance of the points from one smooth curve, relative.
+    """
+
+    wlf: Wlf
+    covariance: Array
+    vertical_factors: Array
+    misfit: float
+
+    @property
+    def deviations(self) -> tuple[float, float]:
+        """Standard deviations of C1 and of C2 (K)."""
+        return float(np.sqrt(self.covariance[0, 0])), float(np.sqrt(self.covariance[1, 1]))
+
+
+def fit_wlf(
+    sweeps: tuple[SmoothedSweep, ...], start: Wlf, reference_temperature: float, vertical: VerticalShift = "none"
+) -> WlfFit:
+    """Fit C1 and C2 referred to `reference_temperature` (degC), and a vertical factor per sweep if asked.
+
+    Log E' and log E'' of all sweeps are each one cubic spline of log reduced frequency, one knot a decade; C1 and C2
+    minimise the robustly weighted squares about it. The spline and the vertical factors are linear and eliminated at
+    each step. Raises `InputError` for fewer than three temperatures.
+    """
+    temperatures = np.array([sweep.raw.temperature for sweep in sweeps])
+    if np.unique(np.round(temperatures)).size < 3:
+        raise InputError("WLF fit", f"{np.unique(np.round(temperatures)).size} temperature(s)", "at least 3")
+    pieces = _Overlap(sweeps, reference_temperature, vertical)
+    lowest = reference_temperature - float(temperatures.min())
+    c1, c2 = referred_to(start, reference_temperature)
+
+    def wlf_of(q: Array) -> tuple[float, float]:
+        return float(q[0]), float(max(lowest, 0.0) + np.exp(q[1]))
+
+    def residual(q: Array) -> Array:
+        return pieces.residual(*wlf_of(q))[0]
+
+    begin = np.array([c1, np.log(max(c2 - max(lowest, 0.0), 1.0))])
+    found = least_squares(residual, begin, x_scale=[1.0, 0.1], xtol=1e-10, ftol=1e-10)
+    c1, c2 = wlf_of(found.x)
+    final, heights, parameters = pieces.residual(c1, c2)
+    steps = [(1e-4, 0.0), (0.0, 1e-3)]
+    jacobian = np.column_stack(
+        [
+            (pieces.residual(c1 + h1, c2 + h2)[0] - pieces.residual(c1 - h1, c2 - h2)[0]) / (2 * (h1 + h2))
+            for h1, h2 in steps
+        ]
+    )
+    variance = float(final @ final) / max(final.size - parameters - 2, 1)
+    covariance = variance * np.linalg.pinv(jacobian.T @ jacobian)
+    fitted = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=reference_temperature)
+    return WlfFit(fitted, covariance, heights, float(np.sqrt(np.mean(final**2))))
+
+
+class _Overlap:
+    """How far the shifted sweeps are from one smooth curve."""
+
+    def __init__(self, sweeps: tuple[SmoothedSweep, ...], reference: float, vertical: VerticalShift) -> None:
+        self.above = np.concatenate([np.full(s.raw.line.size, s.raw.temperature - reference) for s in sweeps])
+        self.log_w = np.concatenate([np.log10(s.raw.angular_frequency) for s in sweeps])
+        self.number = np.concatenate([np.full(s.raw.line.size, k) for k, s in enumerate(sweeps)])
+        self.log_moduli = [
+            np.concatenate([np.log(s.raw.storage_modulus) for s in sweeps]),
+            np.concatenate([np.log(s.raw.loss_modulus) for s in sweeps]),
+        ]
+        self.weights = [
+            np.sqrt(np.concatenate([s.storage.weights for s in sweeps])),
+            np.sqrt(np.concatenate([s.loss.weights for s in sweeps])),
+        ]
+        self.count = len(sweeps)
+        self.vertical = vertical
+        self.intervals = 0  # set by the first constants tried, so that the problem stays smooth in them
+        self.anchor = int(np.argmin([abs(s.raw.temperature - reference) for s in sweeps]))
+
+    def residual(self, c1: float, c2: float) -> tuple[Array, Array, int]:
+        """Return weighted residuals of both moduli, the vertical factors, and how many linear parameters there are."""
+        x = self.log_w - c1 * self.above / (c2 + self.above)
+        if not self.intervals:
+            self.intervals = max(int(np.ceil(np.ptp(x) * KNOTS_PER_DECADE)), 2)
+        basis = _spline_basis(x, self.intervals)
+        bend = np.diff(np.eye(basis.shape[1]), 2, axis=0) * RIDGE
+        if self.vertical == "none":
+            parts = []
+            for y, weight in zip(self.log_moduli, self.weights, strict=True):
+                matrix = np.vstack([basis * weight[:, None], bend])
+                right = np.concatenate([y * weight, np.zeros(bend.shape[0])])
+                c = np.linalg.lstsq(matrix, right, rcond=None)[0]
+                parts.append((y - basis @ c) * weight)
+            return np.concatenate(parts), np.ones(self.count), 2 * basis.shape[1]
+        # log b of each sweep but the one nearest to the reference, common to both moduli
+        moved = np.delete(np.equal.outer(self.number, np.arange(self.count)).astype(float), self.anchor, axis=1)
+        k = basis.shape[1]
+        zero = np.zeros((basis.shape[0], k))
+        both = np.vstack([np.hstack([basis, zero, -moved]), np.hstack([zero, basis, -moved])])
+        bends = np.zeros((2 * bend.shape[0], both.shape[1]))
+        bends[: bend.shape[0], :k], bends[bend.shape[0] :, k : 2 * k] = bend, bend
+        weight, y = np.concatenate(self.weights), np.concatenate(self.log_moduli)
+        matrix = np.vstack([both * weight[:, None], bends])
+        c = np.linalg.lstsq(matrix, np.concatenate([y * weight, np.zeros(bends.shape[0])]), rcond=None)[0]
+        heights = np.insert(np.exp(c[2 * k :]), self.anchor, 1.0)
+        return (y - both @ c) * weight, heights, both.shape[1]
+
+
+def _spline_basis(x: Array, intervals: int) -> Array:
+    low, high = float(x.min()) - 1e-9, float(x.max()) + 1e-9
+    knots = np.concatenate([[low] * 3, np.linspace(low, high, intervals + 1), [high] * 3])
+    return np.asarray(BSpline.design_matrix(x, knots, 3).toarray(), dtype=np.float64)

@@ -1,0 +1,204 @@
+"""The whole route from sweeps to a Prony series, with everything that a reader needs to judge it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..study import Wlf
+from .bootstrap import Bands, bootstrap
+from .collocation import relaxation_times
+from .fit import PronyFit, fit_prony
+from .kramers_kronig import KramersKronig, kramers_kronig
+from .master import MasterCurve, SmoothedSweep, VerticalShift, WlfFit, fit_wlf, shift, smooth_sweeps
+from .reduce import prune, refine_times
+from .sweeps import Sweep, check_above_pole, read_sweeps
+
+Array = NDArray[np.float64]
+Times = Literal["auto", "even", "refined"]
+
+ENOUGH_PER_DECADE = 2.5  # evenly spaced terms need no refinement above this
+
+
+@dataclass(frozen=True)
+class RouteSettings:
+    """How sweeps become a series.
+
+    Attributes
+    ----------
+    terms : int
+        Exponentials besides the long-term modulus.
+    band : (float, float) or None, rad/s
+        Reduced frequencies that the fit uses; None is all that were measured.
+    low_margin, high_margin : float
+        g2 and g1: times reach from 2 pi/(g1 w_max) to 2 pi g2/w_min.
+    times : str
+        ``even``, ``refined``, or ``auto``: refined below 2.5 terms a decade.
+    loss_weight : float
+        Weight of the relative errors of E'' against those of E'.
+    largest_error : float or None
+        Prune to the fewest terms with both RMS errors at most this.
+    fit_wlf : bool
+        Fit C1 and C2 instead of taking the given ones.
+    replicates : int
+        Bootstrap repeats; 0 for none.
+    """
+
+    terms: int = 24
+    band: tuple[float, float] | None = None
+    low_margin: float = 5.0
+    high_margin: float = 5.0
+    times: Times = "auto"
+    loss_weight: float = 1.0
+    largest_error: float | None = None
+    fit_wlf: bool = False
+    vertical: VerticalShift = "none"
+    replicates: int = 400
+    seed: int = 1
+
+
+@dataclass(frozen=True)
+class MaterialRoute:
+    """Raw sweeps, what was made of them at each stage, and how good it is.
+
+    Attributes
+    ----------
+    source : str
+    sweeps : tuple of SmoothedSweep
+        Raw and smoothed moduli, outliers marked.
+    wlf : Wlf
+        Constants used.
+    wlf_fit : WlfFit or None
+    master : MasterCurve
+    band : (float, float), rad/s
+    fit : PronyFit
+        Series and relative residuals in the band.
+    consistency : KramersKronig
+    bands : Bands or None
+    """
+
+    source: str
+    settings: RouteSettings
+    sweeps: tuple[SmoothedSweep, ...]
+    wlf: Wlf
+    wlf_fit: WlfFit | None
+    master: MasterCurve
+    band: tuple[float, float]
+    fit: PronyFit
+    consistency: KramersKronig
+    bands: Bands | None
+
+    @property
+    def outliers(self) -> int:
+        """Number of points set aside by the smoothing."""
+        return int(self.master.outlier.sum())
+
+    def quality(self) -> dict[str, float | int | str | bool]:
+        """Return the figures that tell how good the series is, by name with unit."""
+        fit, series = self.fit, self.fit.series
+        rows: dict[str, float | int | str | bool] = {
+            "points": int(fit.angular_frequency.size),
+            "sweeps": len(self.sweeps),
+            "outliers_set_aside": self.outliers,
+            "lowest_frequency_rad_s": round(self.band[0], 6),
+            "highest_frequency_rad_s": round(self.band[1], 6),
+            "storage_rms_percent": round(100 * fit.storage_rms, 4),
+            "loss_rms_percent": round(100 * fit.loss_rms, 4),
+            "largest_storage_error_percent": round(100 * float(np.max(np.abs(fit.storage_residual))), 4),
+            "largest_loss_error_percent": round(100 * float(np.max(np.abs(fit.loss_residual))), 4),
+            "excess_over_non_negative_percent": round(100 * fit.excess, 6),
+            "terms_asked": self.settings.terms,
+            "terms_that_carry": int(np.sum(series.moduli > 1e-9 * series.instantaneous_modulus)),
+            "kramers_kronig_mismatch_percent": round(100 * self.consistency.mismatch, 3),
+            "kramers_kronig_dispersion_ratio": round(self.consistency.dispersion_ratio, 4),
+            "kramers_kronig_consistent": self.consistency.consistent,
+        }
+        if self.wlf_fit is not None:
+            c1, c2 = self.wlf_fit.deviations
+            rows["wlf_c1_deviation"], rows["wlf_c2_deviation_K"] = round(c1, 4), round(c2, 3)
+            rows["overlap_misfit_percent"] = round(100 * self.wlf_fit.misfit, 3)
+        if self.bands is not None:
+            b = self.bands
+            for name, band in (("storage", b.storage_modulus), ("loss", b.loss_modulus)):
+                half = 0.5 * np.max((band.upper - band.lower) / band.centre)
+                rows[f"{name}_band_95_percent"] = round(100 * float(half), 3)
+        return rows
+
+
+def material_route(
+    sweeps: tuple[Sweep, ...],
+    wlf: Wlf,
+    reference_temperature: float,
+    settings: RouteSettings | None = None,
+    source: str = "sweeps",
+) -> MaterialRoute:
+    """Smooth, shift, fit and judge; `reference_temperature` in degC.
+
+    Raises `InputError` for a sweep at or below the WLF pole, a band outside the data, or too few points for the terms.
+    """
+    chosen = settings or RouteSettings()
+    check_above_pole(sweeps, wlf, source)
+    smoothed = smooth_sweeps(sweeps)
+    wlf_fit = fit_wlf(smoothed, wlf, reference_temperature, chosen.vertical) if chosen.fit_wlf else None
+    used = wlf if wlf_fit is None else wlf_fit.wlf
+    vertical = None if wlf_fit is None else wlf_fit.vertical_factors
+    master = shift(smoothed, used, reference_temperature, vertical)
+    band = _band(master, chosen, source)
+    inside = (master.angular_frequency >= band[0] * (1 - 1e-9)) & (master.angular_frequency <= band[1] * (1 + 1e-9))
+    w = master.angular_frequency[inside]
+    storage, loss = master.storage_modulus[inside], master.loss_modulus[inside]
+    if 2 * w.size < chosen.terms + 1:
+        found = f"{w.size} points between {band[0]:.4g} and {band[1]:.4g} rad/s"
+        raise InputError(source, found, f"at least {(chosen.terms + 2) // 2} for {chosen.terms} terms")
+    fit = _fit(w, storage, loss, band, reference_temperature, chosen)
+    if chosen.largest_error is not None:
+        fit = prune(fit, chosen.largest_error, chosen.loss_weight)
+    bands = None
+    if chosen.replicates:
+        bands = bootstrap(
+            smoothed, master, fit, band, used, wlf_fit, chosen.loss_weight, chosen.replicates, seed=chosen.seed
+        )
+    consistency = kramers_kronig(w, storage, loss)
+    return MaterialRoute(source, chosen, smoothed, used, wlf_fit, master, band, fit, consistency, bands)
+
+
+def read_route(
+    path: Path | str,
+    wlf: Wlf,
+    reference_temperature: float,
+    settings: RouteSettings | None = None,
+    modulus_unit: str | None = None,
+    confirm_units: bool = False,
+    ready_master: bool = False,
+) -> MaterialRoute:
+    """Read a file of sweeps, or a ready master curve at `reference_temperature`, and go the whole route."""
+    at = reference_temperature if ready_master else None
+    sweeps = read_sweeps(path, modulus_unit, confirm_units, at)
+    return material_route(sweeps, wlf, reference_temperature, settings, str(path))
+
+
+def _band(master: MasterCurve, settings: RouteSettings, source: str) -> tuple[float, float]:
+    measured = float(master.angular_frequency[0]), float(master.angular_frequency[-1])
+    if settings.band is None:
+        return measured
+    low, high = settings.band
+    if not measured[0] / 1.5 <= low < high <= measured[1] * 1.5:
+        found = f"reduced frequencies of {measured[0]:.4g} to {measured[1]:.4g} rad/s"
+        raise InputError(source, found, f"data over the band of {low:g} to {high:g} rad/s")
+    return low, high
+
+
+def _fit(
+    w: Array, storage: Array, loss: Array, band: tuple[float, float], temperature: float, settings: RouteSettings
+) -> PronyFit:
+    times = relaxation_times(band, settings.terms, settings.low_margin, settings.high_margin)
+    fit = fit_prony(w, storage, loss, times, temperature, settings.loss_weight)
+    sparse = settings.terms < ENOUGH_PER_DECADE * np.log10(band[1] / band[0])
+    if settings.times == "refined" or (settings.times == "auto" and sparse):
+        return refine_times(fit, settings.loss_weight)
+    return fit
