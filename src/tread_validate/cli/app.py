@@ -19,21 +19,22 @@ EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_ENGINE = 0, 1, 2, 3
 # verb -> module under cli/ that holds its `command`; in the order in which a newcomer meets them
 VERBS = {
     "cases": "cases",
-    "schema": "schema",
+    "deck": "deck",
+    "lint": "lint",
     "spring": "spring",
-    "stimulus": "stimulus",
-    "tables": "tables",
     "compare": "compare",
     "regress": "regress",
-    "check": "check",
-    "accept": "accept",
+    "tables": "tables",
+    "report": "report",
+    "import-abaqus": "import_abaqus",
+    "stimulus": "stimulus",
     "abaqus": "abaqus",
     "calculix": "calculix",
-    "import-abaqus": "import_abaqus",
     "references": "references",
     "stale": "stale",
     "mesh-error": "mesh_error",
     "file-references": "file_references",
+    "schema": "schema",
 }
 
 
