@@ -71,7 +71,9 @@ def _rows(read: Read) -> list[tuple[str, FloatArray, tuple[FloatArray, FloatArra
     for name, conditions in read.held.items():
         if not name.startswith("MOUNT_"):
             continue
-        tables = {dof: read.amplitudes[amplitude] for dof, factor, amplitude in conditions if factor == 1.0 and amplitude}
+        tables = {
+            dof: read.amplitudes[amplitude] for dof, factor, amplitude in conditions if factor == 1.0 and amplitude
+        }
         found.append((name, read.points[read.sets[name][0]], tables[1], tables[2]))
     return found
 
