@@ -103,7 +103,9 @@ def pressure_theory(block: Block, poissons_ratio: float, sliding: bool = False, 
     m, n = np.arange(1, 400)[:, None], np.arange(1, 400, 2)
     # sine coefficients of 1 (or of x from the middle) along, of 1 across, and the same again for the mean
     across = 4.0 / (np.pi * n)
-    along = np.where(m % 2 == 1, 4.0 / (np.pi * m), 0.0) if not rocking else np.where(m % 2 == 0, -2.0 / (np.pi * m), 0.0)
+    along = (
+        np.where(m % 2 == 1, 4.0 / (np.pi * m), 0.0) if not rocking else np.where(m % 2 == 0, -2.0 / (np.pi * m), 0.0)
+    )
     wave = (m * np.pi / length) ** 2 + (n * np.pi / width) ** 2
     amplitude = 12.0 * shear / height**2 / (wave + 12.0 * shear / (bulk * height**2))
     mean = float(np.sum(amplitude * (along * across) ** 2)) / 4.0

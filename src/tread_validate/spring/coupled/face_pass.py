@@ -10,10 +10,14 @@ from scipy.interpolate import PchipInterpolator
 
 from ...geometry import path_of
 from ...study import Case
+from ...units import MM
+from .body import BodySettings
 from .roll import CoupledSettings, FacePass, roll
 
 Array = NDArray[np.float64]
 
+COARSE = CoupledSettings(body=BodySettings(face_size=2.0 * MM, layers=6), step=0.5 * MM)
+"""A face for thousands of runs."""
 SAMPLES = 1500
 """Rows of a record per contact duration: the clock is finer than the solver's steps and is filled by interpolation."""
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .contact import FREE, SLIP, solve_contact
 
 Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
 Integers = NDArray[np.int64]
 
 
@@ -21,7 +22,7 @@ def march(
     angle: Array,
     unloaded: Array,
     area: Array,
-    stiffness: Array,
+    stiffness: Singles,
     long_term: float,
     moduli: Array,
     relaxation_times: Array,
@@ -43,7 +44,8 @@ def march(
     ----------
     time, origin, angle, unloaded : as in `Motion`
     area : (n,) array, m2
-    stiffness : (3 n, 3 n) array, N/m per Pa
+    stiffness : (3 n, 3 n) array of float32, N/m per Pa
+        Single precision: the sweeps run at the speed of memory, and their tolerance is far coarser.
     long_term, moduli, relaxation_times : Pa, (k,) Pa, (k,) s
     road_radius : float, m
         Of the circle with its top at the axle frame's origin; inf for the plane y = 0.
@@ -105,7 +107,7 @@ def march(
                     q[i, c] = relaxed[i, c] + stiffening * rate[i, c] * dt
             else:
                 q[i] = q_target[i]
-        force = np.dot(stiffness, q.reshape(3 * n)).reshape(n, 3)
+        force = np.dot(stiffness, q.reshape(3 * n).astype(np.float32)).astype(np.float64).reshape(n, 3)
         sweeps[k] = solve_contact(
             stiffness, q, force, q_target, normal, area, before, state, stiffening, dt,
             static_coefficient, code, parameters, pressures, slip_speeds, table,

@@ -113,7 +113,7 @@ def roll(
     moves = motion(path, shape, body, face, case.height, step_times(path, settings))
     stretch = np.array([stiffening.normal, stiffening.tangential]) if settings.finite_strain else np.zeros(2)
     force, displacement, state, sweeps = march(
-        moves.time, moves.origin, moves.angle, moves.unloaded, body.area, face.stiffness,
+        moves.time, moves.origin, moves.angle, moves.unloaded, body.area, face.stiffness.astype(np.float32),
         series.long_term_modulus, series.moduli, series.relaxation_times,
         path.road.radius, path.speed * (1.0 + case.creep_ratio), stretch, friction.static_coefficient,
         *friction.kernel_arguments, settings.tolerance, settings.most_sweeps,

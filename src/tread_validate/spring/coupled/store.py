@@ -17,7 +17,7 @@ STIFFENING_SETTINGS = BodySettings(face_size=2e-3, layers=6)
 def condensed(
     block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float
 ) -> tuple[Body, FaceStiffness, Stiffening]:
-    """Return the block's body, its face's stiffness and its stiffening by logarithmic strain.    """
+    """Return the block's body, its face's stiffness and its stiffening by logarithmic strain."""
     body = make_body(block, shape, settings)
     size = max(STIFFENING_SETTINGS.face_size, settings.face_size)
     coarse = make_body(block, shape, BodySettings(size, STIFFENING_SETTINGS.layers))
