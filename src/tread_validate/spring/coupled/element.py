@@ -56,7 +56,7 @@ class IncompatibleField:
         """Return the displacement gradient du_i/dx_j (m, 3, 3) at a Gauss point, and its volume (m,) in m3."""
         gradients, det = self._gradients(point)
         both = np.concatenate([displacement, amplitudes], axis=1)
-        return np.einsum("mni,mnj->mij", both, gradients), det
+        return np.asarray(np.einsum("mni,mnj->mij", both, gradients), dtype=np.float64), det
 
     def _gradients(self, point: Array) -> tuple[Array, Array]:
         jacobian = _jacobian(self._nodes, point)
