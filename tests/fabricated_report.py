@@ -28,22 +28,26 @@ friction_laws:
   dry: {{kind: coulomb, origin: assumed, source: chosen, static_coefficient: 0.9, kinetic_coefficient: 0.8}}
 blocks:
   rectangle: {{origin: published, source: s, shape: rectangle, length_mm: 25.0, width_mm: 20.0, height_mm: 8.0}}
-  parallelogram: {{origin: assumed, source: s, shape: parallelogram, length_mm: 25.0, width_mm: 20.0, height_mm: 8.0, skew_deg: 30.0}}
+  parallelogram: {{origin: assumed, source: s, shape: parallelogram, length_mm: 25.0, width_mm: 20.0, height_mm: 8.0,
+                  skew_deg: 30.0}}
 paths:
   rig: {{kind: rig, origin: assumed, source: s}}
   simplified: {{kind: simplified_belt, origin: published, source: s}}
 runs:
-  - {{name: rig, path: rig, block: [rectangle, parallelogram], compound: soft, friction: dry, temperature_degC: [22.0, 45.0],
-     interference_mm: [0.1, 0.2], speed_rpm: [150.0, 300.0]}}
+  - {{name: rig, path: rig, block: [rectangle, parallelogram], compound: soft, friction: dry,
+     temperature_degC: [22.0, 45.0], interference_mm: [0.1, 0.2], speed_rpm: [150.0, 300.0]}}
   - {{name: belt, path: simplified, block: rectangle, compound: soft, friction: dry, temperature_degC: 60.0,
      interference_mm: 0.2, speed_m_s: 16.7, creep_percent: [free_rolling, 0.3]}}
 """
 REFERENCE, MODEL = "fe:embedded", "spring:paper"
 STALE, MISSING = "rig-parallelogram-45c-0p2mm-150rpm", "rig-parallelogram-45c-0p2mm-300rpm"
 SCALARS = {
-    "peak_normal_force": ("N", 1.0), "peak_positive_tangential_force": ("N", 0.2),
-    "peak_negative_tangential_force": ("N", -0.2), "normal_impulse": ("N s", 0.005), "contact_duration": ("s", 1e-4),
-}  # fmt: skip
+    "peak_normal_force": ("N", 1.0),
+    "peak_positive_tangential_force": ("N", 0.2),
+    "peak_negative_tangential_force": ("N", -0.2),
+    "normal_impulse": ("N s", 0.005),
+    "contact_duration": ("s", 1e-4),
+}
 
 
 @dataclass(frozen=True)
@@ -69,8 +73,15 @@ def fabricate(folder: Path) -> Fabricated:
     _histories(places, cases)
     for name, frame in _frames(cases).items():
         frame.to_csv(places.tables / f"{name}.csv", index=False, lineterminator="\n")
-    provenance = {"commit": "0" * 12, "version": "0.1.0", "study": "tiny", "study_digest": "f" * 64, "packages": {"numpy": "2"},
-        "inputs": {"study.yaml": "f" * 64}, "sources": {REFERENCE: {"current": len(cases) - 2, "missing": 1, "stale": 1}}}  # fmt: skip
+    provenance = {
+        "commit": "0" * 12,
+        "version": "0.1.0",
+        "study": "tiny",
+        "study_digest": "f" * 64,
+        "packages": {"numpy": "2"},
+        "inputs": {"study.yaml": "f" * 64},
+        "sources": {REFERENCE: {"current": len(cases) - 2, "missing": 1, "stale": 1}},
+    }
     (places.tables / "provenance.json").write_text(json.dumps(provenance), encoding="utf-8")
     return places
 
@@ -108,13 +119,32 @@ def _frames(cases: tuple[Case, ...]) -> dict[str, pd.DataFrame]:
         "ensemble": _ensemble(len(cases)),
         **_regressions(),
         "claims": _claims(),
-        "published": pd.DataFrame([{"id": "p1", "quantity": "peak", "value": 200, "unit": "N", "low": "", "high": "",
-            "spread_kind": "", "section": "5", "statement": "about 200 N", "comparability": "computed", "comparison": "peak"}]),
-        "assumed": pd.DataFrame([{"input": "compound soft", "origin": "synthetic", "source": "source " + NASTY, "cases": 18},
-            {"input": "friction law dry", "origin": "assumed", "source": "chosen", "cases": 18},
-            {"input": "block parallelogram", "origin": "assumed", "source": "s", "cases": 8},
-            {"input": "path rig", "origin": "assumed", "source": "s", "cases": 16}]),
-    }  # fmt: skip
+        "published": pd.DataFrame(
+            [
+                {
+                    "id": "p1",
+                    "quantity": "peak",
+                    "value": 200,
+                    "unit": "N",
+                    "low": "",
+                    "high": "",
+                    "spread_kind": "",
+                    "section": "5",
+                    "statement": "about 200 N",
+                    "comparability": "computed",
+                    "comparison": "peak",
+                }
+            ]
+        ),
+        "assumed": pd.DataFrame(
+            [
+                {"input": "compound soft", "origin": "synthetic", "source": "source " + NASTY, "cases": 18},
+                {"input": "friction law dry", "origin": "assumed", "source": "chosen", "cases": 18},
+                {"input": "block parallelogram", "origin": "assumed", "source": "s", "cases": 8},
+                {"input": "path rig", "origin": "assumed", "source": "s", "cases": 16},
+            ]
+        ),
+    }
 
 
 def _peaks(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
@@ -123,9 +153,21 @@ def _peaks(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
         for case in cases:
             status = state(case) if source == REFERENCE else "current"
             force = factor * peak(case) if status == "current" else ""
-            rows.append({"source": source, "case_id": case.case_id, "shape": case.block.shape, "path": case.path_name,
-                "block": case.block_name, "temperature_degC": case.temperature, "interference_mm": 1e3 * case.interference,
-                "speed_m_s": case.speed, "peak_normal_force_N": force, "status": status, "assumed": assumed[case.case_id]})  # fmt: skip
+            rows.append(
+                {
+                    "source": source,
+                    "case_id": case.case_id,
+                    "shape": case.block.shape,
+                    "path": case.path_name,
+                    "block": case.block_name,
+                    "temperature_degC": case.temperature,
+                    "interference_mm": 1e3 * case.interference,
+                    "speed_m_s": case.speed,
+                    "peak_normal_force_N": force,
+                    "status": status,
+                    "assumed": assumed[case.case_id],
+                }
+            )
     return pd.DataFrame(rows)
 
 
@@ -134,19 +176,63 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
     for case in cases:
         status = state(case)
         there = status == "current"
-        common = {"case_id": case.case_id, "reference_source": REFERENCE, "predicted_source": MODEL, "status": status,
-            "assumed": assumed[case.case_id], "tolerance": 0.05, "reference_uncertainty": 0.02 if there else ""}  # fmt: skip
+        common = {
+            "case_id": case.case_id,
+            "reference_source": REFERENCE,
+            "predicted_source": MODEL,
+            "status": status,
+            "assumed": assumed[case.case_id],
+            "tolerance": 0.05,
+            "reference_uncertainty": 0.02 if there else "",
+        }
         for quantity, (unit, scale) in SCALARS.items():
             value = scale * peak(case)
-            rows.append(common | {"quantity": quantity, "metric": "scalar", "reference": value if there else "",
-                "predicted": 0.9 * value, "unit": unit, "error": -0.1 if there else "", "error_type": "relative",
-                "passed": "false" if there else "", "verdict": "disagrees" if there else "cannot tell", "note": ""})  # fmt: skip
+            rows.append(
+                common
+                | {
+                    "quantity": quantity,
+                    "metric": "scalar",
+                    "reference": value if there else "",
+                    "predicted": 0.9 * value,
+                    "unit": unit,
+                    "error": -0.1 if there else "",
+                    "error_type": "relative",
+                    "passed": "false" if there else "",
+                    "verdict": "disagrees" if there else "cannot tell",
+                    "note": "",
+                }
+            )
         for quantity in ("normal_force", "tangential_force"):
-            rows.append(common | {"quantity": quantity, "metric": "relative_rms", "reference": "", "predicted": "", "unit": "1",
-                "error": 0.07 if there else "", "error_type": "relative", "passed": "", "verdict": "", "note": ""})  # fmt: skip
-            rows.append(common | {"quantity": quantity, "metric": "iso18571_r", "reference": 1 if there else "",
-                "predicted": 0.91 if there else "", "unit": "1", "error": -0.09 if there else "", "error_type": "score",
-                "passed": "", "verdict": "", "note": "good" if there else ""})  # fmt: skip
+            rows.append(
+                common
+                | {
+                    "quantity": quantity,
+                    "metric": "relative_rms",
+                    "reference": "",
+                    "predicted": "",
+                    "unit": "1",
+                    "error": 0.07 if there else "",
+                    "error_type": "relative",
+                    "passed": "",
+                    "verdict": "",
+                    "note": "",
+                }
+            )
+            rows.append(
+                common
+                | {
+                    "quantity": quantity,
+                    "metric": "iso18571_r",
+                    "reference": 1 if there else "",
+                    "predicted": 0.91 if there else "",
+                    "unit": "1",
+                    "error": -0.09 if there else "",
+                    "error_type": "score",
+                    "passed": "",
+                    "verdict": "",
+                    "note": "good" if there else "",
+                }
+            )
     return pd.DataFrame(rows)
 
 
@@ -161,11 +247,30 @@ def _ensemble(cases: int) -> pd.DataFrame:
     ):
         scalar = metric == "scalar"
         for group in ("all", "rig"):
-            rows.append({"group": group, "quantity": quantity, "metric": metric, "reference_source": REFERENCE,
-                "predicted_source": MODEL, "unit": "1", "error_type": kind, "cases": cases, "compared": cases - 2, "passed": 0,
-                "mean_abs_error": mean, "largest_abs_error": mean, "largest_case_id": "rig-rectangle-22c-0p1mm-150rpm",
-                "bias": 0.9 if scalar else "", "model_scatter": 0.02 if scalar else "", "total_scatter": 0.02 if scalar else "",
-                "reference_scatter": 0.01 if scalar else "", "status": "current", "note": "", "assumed": "compound soft (synthetic)"})  # fmt: skip
+            rows.append(
+                {
+                    "group": group,
+                    "quantity": quantity,
+                    "metric": metric,
+                    "reference_source": REFERENCE,
+                    "predicted_source": MODEL,
+                    "unit": "1",
+                    "error_type": kind,
+                    "cases": cases,
+                    "compared": cases - 2,
+                    "passed": 0,
+                    "mean_abs_error": mean,
+                    "largest_abs_error": mean,
+                    "largest_case_id": "rig-rectangle-22c-0p1mm-150rpm",
+                    "bias": 0.9 if scalar else "",
+                    "model_scatter": 0.02 if scalar else "",
+                    "total_scatter": 0.02 if scalar else "",
+                    "reference_scatter": 0.01 if scalar else "",
+                    "status": "current",
+                    "note": "",
+                    "assumed": "compound soft (synthetic)",
+                }
+            )
     return pd.DataFrame(rows)
 
 
@@ -176,27 +281,91 @@ def _regressions() -> dict[str, pd.DataFrame]:
         for shape in ("rectangle", "parallelogram"):
             for coefficient, value, unit, kind in (("a_v", 0.03, "s/m", "sd"), ("a_theta", -0.005, "1/degC", "range")):
                 mean = factor * value
-                rows.append({"source": source, "shape": shape, "coefficient": coefficient, "set": "mean", "value": mean, "unit": unit,
-                    "spread": 0.2 * abs(mean), "spread_kind": kind, "low": mean - 0.2 * abs(mean), "high": mean + 0.2 * abs(mean),
-                    "ci_low": mean - 0.4 * abs(mean) if made else "", "ci_high": mean + 0.4 * abs(mean) if made else "",
-                    "ci_level": 0.95, "n": 4, "status": "current", "note": "", "assumed": made})  # fmt: skip
+                rows.append(
+                    {
+                        "source": source,
+                        "shape": shape,
+                        "coefficient": coefficient,
+                        "set": "mean",
+                        "value": mean,
+                        "unit": unit,
+                        "spread": 0.2 * abs(mean),
+                        "spread_kind": kind,
+                        "low": mean - 0.2 * abs(mean),
+                        "high": mean + 0.2 * abs(mean),
+                        "ci_low": mean - 0.4 * abs(mean) if made else "",
+                        "ci_high": mean + 0.4 * abs(mean) if made else "",
+                        "ci_level": 0.95,
+                        "n": 4,
+                        "status": "current",
+                        "note": "",
+                        "assumed": made,
+                    }
+                )
                 if made:
                     for x, residual in ((1.571, 0.5), (3.142, -0.5)):
-                        residuals.append({"source": source, "shape": shape, "coefficient": coefficient, "set": "22 degC 0.1 mm",
-                            "case_id": "rig-rectangle-22c-0p1mm-150rpm", "x": x, "x_unit": "m/s" if coefficient == "a_v" else "degC",
-                            "force_N": 100, "fitted_N": 100, "residual_N": residual, "residual_percent": residual, "assumed": made})  # fmt: skip
-    difference = {"shape": "rectangle", "coefficient": "a_v", "source_a": MODEL, "source_b": "rig:published", "difference": -0.009,
-        "unit": "s/m", "ci_low": -0.02, "ci_high": 0.002, "p_value": 0.09, "significant": "false", "test": "Welch",
-        "status": "current", "note": "", "assumed": "compound soft (synthetic)"}  # fmt: skip
-    return {"regression": pd.DataFrame(rows), "regression_residuals": pd.DataFrame(residuals),
-        "regression_differences": pd.DataFrame([difference])}  # fmt: skip
+                        residuals.append(
+                            {
+                                "source": source,
+                                "shape": shape,
+                                "coefficient": coefficient,
+                                "set": "22 degC 0.1 mm",
+                                "case_id": "rig-rectangle-22c-0p1mm-150rpm",
+                                "x": x,
+                                "x_unit": "m/s" if coefficient == "a_v" else "degC",
+                                "force_N": 100,
+                                "fitted_N": 100,
+                                "residual_N": residual,
+                                "residual_percent": residual,
+                                "assumed": made,
+                            }
+                        )
+    difference = {
+        "shape": "rectangle",
+        "coefficient": "a_v",
+        "source_a": MODEL,
+        "source_b": "rig:published",
+        "difference": -0.009,
+        "unit": "s/m",
+        "ci_low": -0.02,
+        "ci_high": 0.002,
+        "p_value": 0.09,
+        "significant": "false",
+        "test": "Welch",
+        "status": "current",
+        "note": "",
+        "assumed": "compound soft (synthetic)",
+    }
+    return {
+        "regression": pd.DataFrame(rows),
+        "regression_residuals": pd.DataFrame(residuals),
+        "regression_differences": pd.DataFrame([difference]),
+    }
 
 
 def _claims() -> pd.DataFrame:
     rows = []
     for i, (verdict, computed) in enumerate((("agrees", 203.0), ("disagrees", 260.0), ("cannot tell", ""))):
-        rows.append({"claim_id": f"c{i}", "section": "5", "statement": f"normal force about 200 N {NASTY}", "quantity": "peak_normal_force",
-            "unit": "N", "published": 200, "published_low": "", "published_high": "", "spread_kind": "", "source": MODEL,
-            "case_ids": "", "computed": computed, "error": 0.015 if computed else "", "error_type": "relative", "verdict": verdict,
-            "status": "current" if computed else "missing", "note": "", "assumed": "compound soft (synthetic)"})  # fmt: skip
+        rows.append(
+            {
+                "claim_id": f"c{i}",
+                "section": "5",
+                "statement": f"normal force about 200 N {NASTY}",
+                "quantity": "peak_normal_force",
+                "unit": "N",
+                "published": 200,
+                "published_low": "",
+                "published_high": "",
+                "spread_kind": "",
+                "source": MODEL,
+                "case_ids": "",
+                "computed": computed,
+                "error": 0.015 if computed else "",
+                "error_type": "relative",
+                "verdict": verdict,
+                "status": "current" if computed else "missing",
+                "note": "",
+                "assumed": "compound soft (synthetic)",
+            }
+        )
     return pd.DataFrame(rows)

@@ -11,8 +11,12 @@ import typer
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
     tables: Annotated[Path, typer.Option(help="folder of the comparison's tables")] = Path("results/tables"),
-    spring: Annotated[Path, typer.Option(help="folder of spring histories, <variant>/<case>.csv")] = Path("results/spring"),
-    reference: Annotated[Path, typer.Option(help="folder of FE histories, <engine>/<case>.csv")] = Path("reference_data/fe"),
+    spring: Annotated[Path, typer.Option(help="folder of spring histories, <variant>/<case>.csv")] = Path(
+        "results/spring"
+    ),
+    references: Annotated[
+        Path, typer.Option(help="the reference data package; FE histories in its fe/<engine>/")
+    ] = Path("reference_data"),
     decks: Annotated[Path, typer.Option(help="folder of decks, <case>/mesh.vtu")] = Path("fe_inputs"),
     out: Annotated[Path, typer.Option("-o", "--out", help="where the report goes")] = Path("reports"),
     delta: Annotated[Path | None, typer.Option(help="delta table that `check` wrote")] = None,
@@ -24,5 +28,5 @@ def command(
     """
     from ..report import build_report
 
-    build_report(study, tables, spring, reference, decks, out, baseline_delta=delta, ladder_dir=ladder)
+    build_report(study, tables, spring, references / "fe", decks, out, baseline_delta=delta, ladder_dir=ladder)
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

@@ -140,7 +140,7 @@ def _figures(drawn: tuple[figures.Drawn, ...], pdf: bool = False) -> tuple[Item,
     shown = tuple(item.figure for item in drawn if item.figure is not None)
     if shown:
         found.append(Figures(shown, pdf_only=pdf))
-    found += [Paragraph(item.reason, tone="mute") for item in drawn if item.figure is None]
+    found += [Paragraph(item.reason, tone="mute", pdf_only=pdf) for item in drawn if item.figure is None]
     return tuple(found)
 
 

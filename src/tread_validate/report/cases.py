@@ -9,7 +9,7 @@ from typing import Any
 import pandas as pd
 
 from . import wording
-from .tables import number
+from .tables import number, records
 
 FACTORS = (
     ("path", "Path"),
@@ -38,7 +38,7 @@ class CaseView:
 
 def case_views(cases: pd.DataFrame) -> tuple[CaseView, ...]:
     """Return the cases in the table's order."""
-    return tuple(_view({str(key): value for key, value in row.items()}) for row in cases.to_dict("records"))
+    return tuple(_view(row) for row in records(cases))
 
 
 def _view(row: dict[str, Any]) -> CaseView:
@@ -115,7 +115,7 @@ def _facets_of_run(run: str, views: tuple[CaseView, ...]) -> list[Facet]:
         title = ", ".join([run.replace("_", " "), *map(_with_unit, fixed, combination)])
         rows = tuple((y, tuple(chosen.get((x, y)) for x in levels[across])) for y in levels[down])
         corner = f"{names[down]} \\ {names[across]}"
-        found.append(Facet(title.capitalize(), corner, tuple(levels[across]), rows))
+        found.append(Facet(title[:1].upper() + title[1:], corner, tuple(levels[across]), rows))
     return found
 
 

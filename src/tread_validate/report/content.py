@@ -94,6 +94,7 @@ class Paragraph:
     text: str
     tone: Tone = ""
     marks: tuple[Mark, ...] = ()
+    pdf_only: bool = False
 
 
 @dataclass(frozen=True)

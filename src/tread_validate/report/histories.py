@@ -14,7 +14,7 @@ from .tables import Tables
 
 SAMPLES = 300
 TIME_SCALE = 1e-6  # s: packed times are whole microseconds
-FORCE_SCALE = 0.01  # N: packed forces are whole hundredths of a newton
+FORCE_STEPS = 20_000  # packed forces are whole steps of their largest value over this
 
 
 @dataclass(frozen=True)
@@ -47,17 +47,26 @@ def load_histories(tables: Tables, store: HistoryStore) -> dict[str, dict[str, H
 
 
 def pack(history: History) -> dict[str, Any]:
-    """Return a history as small whole numbers: time steps in µs, forces in 0.01 N, slipping share in 1/1000."""
+    """Return a history as small whole numbers: time steps in µs, forces in 1/20000 of their peak, slip in 1/1000."""
     keep = thin(history)
     microseconds = np.rint(history.time[keep] / TIME_SCALE).astype(int)
+    normal_scale, normal = _whole(history.normal_force[keep])
+    tangential_scale, tangential = _whole(history.tangential_force[keep])
     return {
         "ts": TIME_SCALE * 1e3,
-        "fs": FORCE_SCALE,
         "t": np.diff(microseconds, prepend=0).tolist(),
-        "n": np.rint(history.normal_force[keep] / FORCE_SCALE).astype(int).tolist(),
-        "q": np.rint(history.tangential_force[keep] / FORCE_SCALE).astype(int).tolist(),
+        "ns": normal_scale,
+        "n": normal,
+        "qs": tangential_scale,
+        "q": tangential,
         "s": np.rint(history.slipping_fraction[keep] * 1e3).astype(int).tolist(),
     }
+
+
+def _whole(forces: NDArray[np.float64]) -> tuple[float, list[int]]:
+    """Return a scale in N and the forces as whole multiples of it."""
+    scale = float(f"{np.abs(forces).max() / FORCE_STEPS or 1.0:.4g}")
+    return scale, np.rint(forces / scale).astype(int).tolist()
 
 
 def thin(history: History, samples: int = SAMPLES) -> NDArray[np.int64]:

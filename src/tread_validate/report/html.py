@@ -33,7 +33,9 @@ def render(report: Report) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri)
+    environment.filters.update(
+        by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri
+    )
     plotly, script = _plotly(), "\n".join(_asset(name) for name in SCRIPTS)
     return (
         environment.get_template("index.html.j2")

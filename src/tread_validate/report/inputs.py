@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,7 +9,7 @@ from .. import provenance
 from . import wording
 from .content import Cell, Column, Item, Paragraph, Row, Section, Table
 from .marks import Marks
-from .tables import Tables, number
+from .tables import Tables, number, records
 
 
 def inputs_section(tables: Tables, marks: Marks) -> Section:
@@ -49,13 +48,13 @@ def inputs_section(tables: Tables, marks: Marks) -> Section:
 
 def _published(tables: Tables) -> Table:
     rows = []
-    for record in tables.published.to_dict("records"):
+    for record in records(tables.published):
         value, unit = number(record["value"]), str(record["unit"])
-        shown = str(record["value"]) if value is None else wording.digits(value, 4)
+        shown = str(record["value"]) if value is None else wording.plain(value)
         cells = (
             Cell(str(record["section"])),
             Cell(str(record["statement"])),
-            Cell(f"{shown} {'' if unit in ('1', '-') else unit}".strip(), sort=value),
+            Cell(f"{shown} {wording.unit(unit)}".strip(), sort=value),
             Cell(str(record["comparability"])),
             Cell(str(record["comparison"])),
         )
@@ -75,7 +74,7 @@ def sensitivity_table(tables: Tables) -> Table | None:
     if not len(tables.sensitivity):
         return None
     rows = []
-    for record in tables.sensitivity.to_dict("records"):
+    for record in records(tables.sensitivity):
         value, change, samples = (number(record[key]) for key in ("value", "change", "samples"))
         cells = (
             Cell(wording.quantity(str(record["quantity"]), str(record["metric"]))),
@@ -101,7 +100,10 @@ def sensitivity_table(tables: Tables) -> Table | None:
 def provenance_section(tables: Tables) -> Section:
     """Return commit, versions and input digests."""
     data = tables.provenance
-    facts = [("Code commit", str(data.get("commit", "unknown"))), ("Package version", str(data.get("version", "unknown")))]
+    facts = [
+        ("Code commit", str(data.get("commit", "unknown"))),
+        ("Package version", str(data.get("version", "unknown"))),
+    ]
     facts += [("Study", str(data.get("study", "unknown"))), ("Study SHA-256", str(data.get("study_digest", "unknown")))]
     facts += [("Report made by commit", provenance.commit())]
     packages = _mapping(data.get("packages"))
@@ -115,7 +117,9 @@ def provenance_section(tables: Tables) -> Section:
         _facts("provenance-code", "Code and study", "Fact", facts),
         _facts("provenance-sources", "Sources", "Source", states),
         _facts("provenance-packages", "Packages", "Package", [(k, str(v)) for k, v in packages.items()], folded=True),
-        _facts("provenance-inputs", "Input files, SHA-256", "File", [(k, str(v)) for k, v in inputs.items()], folded=True),
+        _facts(
+            "provenance-inputs", "Input files, SHA-256", "File", [(k, str(v)) for k, v in inputs.items()], folded=True
+        ),
     ]
     note = Paragraph("The same code on the same inputs gives this report byte for byte.")
     return Section("provenance", "Provenance", (note, *(table for table in tables_made if table.rows)))
@@ -146,7 +150,7 @@ def plain_table(key: str, title: str, frame: Any, marks: Marks, *, folded: bool 
     names = [str(name) for name in frame.columns if name != "assumed"]
     numeric = {name: str(frame[name].dtype) != "str" and frame[name].dtype.kind in "if" for name in names}
     rows = []
-    for record in itertools.islice(frame.to_dict("records"), limit):
+    for record in records(frame.head(limit)):
         cells = []
         for name in names:
             value = number(record[name]) if numeric[name] else None

@@ -10,7 +10,7 @@ import pandas as pd
 from . import wording
 from .content import Cell, Column, Row, Table, Tone
 from .marks import Marks
-from .tables import Tables, number
+from .tables import Tables, number, records
 
 HEADLINE = (
     ("peak_normal_force", "scalar"),
@@ -25,6 +25,7 @@ HEADLINE = (
     ("normal_force", "iso18571_r"),
     ("tangential_force", "iso18571_r"),
 )
+CLAIM_GROUPS = ("Computed and compared", "Taken over as inputs of the study", "Not compared, and why")
 COEFFICIENTS = {"a_v": "a_v, speed", "a_theta": "a_θ, temperature"}
 UNITS = {"s/m": "%/(m/s)", "1/degC": "%/°C"}
 
@@ -37,11 +38,13 @@ def value_cell(value: float | None, text: str, note: str = "", tone: Tone = "") 
 def verdict_cell(verdict: object, note: object = "", status: object = "current") -> Cell:
     """Return a verdict with its symbol and reason; without a verdict, the status in words."""
     key = str(verdict or "")
+    if str(status) == "not_compared":
+        return Cell("not compared", tone="mute", note=str(note or ""))
     if not key:
         words = wording.status(str(status)) if str(status) != "current" else "not judged"
         return Cell(words, tone="mute", note=str(note or ""))
     reason = str(note or "")
-    if str(status) not in ("current", ""):
+    if str(status) not in ("current", "", "not_compared"):
         reason = "; ".join(part for part in (wording.status(str(status)), reason) if part)
     return Cell(wording.verdict(key), tone=wording.TONES.get(key, "mute"), note=reason)
 
@@ -55,8 +58,10 @@ def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:
         listed = np.array([pair in wanted for pair in pairs], dtype=bool)
         frame = frame[listed & (frame["group"] == "all").to_numpy()]
         order = [wanted[pair] for pair in zip(frame["quantity"], frame["metric"], strict=True)]
-        frame = frame.assign(_order=order).sort_values(["predicted_source", "reference_source", "_order"], kind="stable")
-    rows = tuple(_ensemble_row(record, marks, headline) for record in frame.to_dict("records"))
+        frame = frame.assign(_order=order).sort_values(
+            ["predicted_source", "reference_source", "_order"], kind="stable"
+        )
+    rows = tuple(_ensemble_row(record, marks, headline) for record in records(frame))
     columns = [
         Column("Quantity", wide=True),
         Column("Cases compared", "of all", numeric=True),
@@ -93,8 +98,12 @@ def _ensemble_row(record: dict[str, Any], marks: Marks, headline: bool) -> Row:
     note = str(record["note"] or "")
     if compared == 0:
         note = note or wording.status(str(record["status"]))
-    unsigned = {"relative": wording.percent, "score": wording.digits}
-    show = unsigned.get(kind, lambda value: f"{wording.digits(value)} {unit}".strip() if value is not None else "–")
+
+    def show(value: float | None) -> str:
+        if value is None or kind == "score":
+            return wording.digits(value)
+        return wording.percent(value) if kind == "relative" else f"{wording.digits(value)} {unit}".strip()
+
     cells = [
         Cell(wording.quantity(str(record["quantity"]), str(record["metric"])), note=note),
         value_cell(compared, f"{compared:.0f} of {cases:.0f}"),
@@ -106,7 +115,9 @@ def _ensemble_row(record: dict[str, Any], marks: Marks, headline: bool) -> Row:
     ]
     if not headline:
         cells.insert(1, Cell(wording.group(str(record["group"]))))
-    pair = f"{wording.source(str(record['predicted_source']))} against {wording.source(str(record['reference_source']))}"
+    pair = (
+        f"{wording.source(str(record['predicted_source']))} against {wording.source(str(record['reference_source']))}"
+    )
     return Row(tuple(cells), marks.of(record["assumed"]), group=pair)
 
 
@@ -132,7 +143,7 @@ def table1(tables: Tables, marks: Marks) -> Table:
         cells = [Cell(str(shape)), Cell(COEFFICIENTS.get(str(coefficient), str(coefficient)))]
         for name in sources:
             chosen = (frame["source"] == name) & (frame["shape"] == shape) & (frame["coefficient"] == coefficient)
-            cells.append(_coefficient_cell(frame[chosen].to_dict("records")))
+            cells.append(_coefficient_cell(records(frame[chosen])))
         rows.append(Row(tuple(cells)))
     return Table(
         "table1",
@@ -144,10 +155,10 @@ def table1(tables: Tables, marks: Marks) -> Table:
     )
 
 
-def _coefficient_cell(records: list[dict[str, Any]]) -> Cell:
-    if not records:
+def _coefficient_cell(found: list[dict[str, Any]]) -> Cell:
+    if not found:
         return Cell("–", tone="mute")
-    record = records[0]
+    record = found[0]
     value, unit = number(record["value"]), UNITS.get(str(record["unit"]), str(record["unit"]))
     if value is None:
         return Cell("–", tone="mute", note=str(record["note"] or "") or wording.status(str(record["status"])))
@@ -172,7 +183,7 @@ def _percent(value: float) -> str:
 def differences_table(tables: Tables, marks: Marks) -> Table:
     """Return whether two sources' coefficients differ significantly."""
     rows = []
-    for record in tables.regression_differences.to_dict("records"):
+    for record in records(tables.regression_differences):
         significant = str(record["significant"]).lower()
         known = significant in ("true", "1", "1.0", "false", "0", "0.0")
         yes = significant in ("true", "1", "1.0")
@@ -207,21 +218,25 @@ def differences_table(tables: Tables, marks: Marks) -> Table:
 
 def claims_table(tables: Tables, marks: Marks) -> Table:
     """Return every published statement with its computed counterpart and verdict."""
-    rows = []
-    for record in tables.claims.to_dict("records"):
+    rows: list[tuple[int, Row]] = []
+    ranks = {str(row.id): int(str(row.comparability) != "computed") for row in tables.published.itertuples(index=False)}
+    for record in records(tables.claims):
         computed, published = number(record["computed"]), number(record["published"])
-        unit = str(record["unit"])
-        unit = "" if unit in ("1", "-") else unit
+        unit = wording.unit(str(record["unit"]))
+        stated, bounds = _stated(record, published, unit)
+        error = number(record["error"])
         cells = (
             Cell(str(record["section"])),
             Cell(str(record["statement"])),
-            value_cell(published, f"{wording.digits(published)} {unit}".strip(), note=_bounds(record)),
+            value_cell(published, stated, note=bounds),
             Cell(wording.source(str(record["source"])) if record["source"] else "–"),
-            value_cell(computed, f"{wording.digits(computed)} {unit}".strip()),
-            value_cell(number(record["error"]), wording.error(number(record["error"]), str(record["error_type"]), unit)),
+            value_cell(computed, f"{wording.plain(computed, 4)} {unit}".strip() if computed is not None else "–"),
+            value_cell(error, wording.error(error, str(record["error_type"]), unit)),
             verdict_cell(record["verdict"], record["note"], record["status"]),
         )
-        rows.append(Row(cells, marks.of(record["assumed"])))
+        rank = 2 if record["status"] == "not_compared" else ranks.get(str(record["claim_id"]), 0)
+        rows.append((rank, Row(cells, marks.of(record["assumed"]), group=CLAIM_GROUPS[rank])))
+    rows.sort(key=lambda item: item[0])
     columns = (
         Column("Section"),
         Column("Published statement", wide=True),
@@ -231,17 +246,19 @@ def claims_table(tables: Tables, marks: Marks) -> Table:
         Column("Error", numeric=True),
         Column("Verdict", wide=True),
     )
-    return Table("claims", "What the paper states, and what is found here", columns, tuple(rows), with_marks=True)
+    title = "What the paper states, and what is found here"
+    return Table("claims", title, columns, tuple(row for _, row in rows), with_marks=True)
 
 
-def _bounds(record: dict[str, Any]) -> str:
+def _stated(record: dict[str, Any], value: float | None, unit: str) -> tuple[str, str]:
+    """Return the published value as printed, and its bounds; a range without a value stands in the value's place."""
     low, high = number(record["published_low"]), number(record["published_high"])
-    if low is None and high is None:
-        return ""
     kind = str(record.get("spread_kind", "") or "")
-    if low is None or high is None:
-        return kind
-    return f"{wording.digits(low)} to {wording.digits(high)}" + (f" ({kind})" if kind else "")
+    kind = "" if kind == "none" else kind
+    bounds = f"{wording.plain(low)} to {wording.plain(high)}" if low is not None and high is not None else ""
+    if value is None:
+        return (f"{bounds} {unit}".strip() if bounds else "–"), kind if bounds else ""
+    return f"{wording.plain(value)} {unit}".strip(), f"{bounds} ({kind})" if bounds and kind else bounds or kind
 
 
 def count_verdicts(frame: pd.DataFrame) -> dict[str, int]:

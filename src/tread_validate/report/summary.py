@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from . import wording
 from .content import Tone, Verdict, Verdicts
 from .marks import Marks
 from .results import count_verdicts
-from .tables import Tables, number
+from .tables import Tables, number, records
 
 LEAD = (
-    "Every case of the study is run with the spring models of a tread block. Where a finite element (FE) run of the same "
-    "block on the same path exists, the two are compared; both are held against what the paper published.",
+    "Every case of the study is run with the spring models of a tread block. Where a finite element (FE) run of the "
+    "same block on the same path exists, the two are compared; both are held against what the paper published.",
 )
 CAVEAT = (
     "The FE runs are a second model of the same study, not measurements: agreement with them is verification of the "
@@ -24,13 +25,16 @@ CAVEAT = (
 
 def summary(tables: Tables, marks: Marks, delta: tuple[Tone, str] | None) -> Verdicts:
     """Return the verdict lines."""
-    lines = [line for pair in _pairs(tables) if (line := _model(tables, marks, pair)) is not None]
+    pairs = _pairs(tables)
+    answered = [pair for pair in pairs if _compared(tables, pair)]
+    lines = [_model(tables, marks, pair) for pair in answered]
+    lines += [_unanswered(tables, [pair for pair in pairs if pair not in answered])]
     lines += [_claims(tables, marks), _slopes(tables, marks), _references(tables)]
     if delta is not None:
         question = "Has anything moved since the accepted baseline?"
         lines.append(Verdict(question, delta[1], delta[0], _moved(delta[0]), (), "baseline"))
     lines.append(_foundations(marks))
-    return Verdicts(tuple(lines))
+    return Verdicts(tuple(line for line in lines if line is not None))
 
 
 def _pairs(tables: Tables) -> list[tuple[str, str]]:
@@ -53,7 +57,9 @@ def _references(tables: Tables) -> Verdict:
         if others:
             worst = "warn" if current else "bad"
     if not texts:
-        return Verdict("Is there a reference for every case?", "No FE reference runs are recorded.", "bad", "none", (), "cases")
+        return Verdict(
+            "Is there a reference for every case?", "No FE reference runs are recorded.", "bad", "none", (), "cases"
+        )
     label = {"good": "all current", "warn": "incomplete", "bad": "none current"}[worst]
     return Verdict("Is there a reference for every case?", " ".join(texts), worst, label, (), "cases")
 
@@ -67,8 +73,8 @@ def _row(tables: Tables, pair: tuple[str, str], quantity: str, metric: str) -> d
         & (frame["metric"] == metric)
         & (frame["group"] == "all")
     ]
-    records = chosen.to_dict("records")
-    return {str(key): value for key, value in records[0].items()} if records else None
+    found = records(chosen)
+    return found[0] if found else None
 
 
 def _model(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | None:
@@ -78,9 +84,6 @@ def _model(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | Non
         return None
     question = f"{wording.source(pair[0])}: does it give the forces of {wording.source(pair[1])}?"
     own = marks.of(row["assumed"])
-    if not number(row["compared"]):
-        reason = str(row["note"] or "") or "no current reference run"
-        return Verdict(question, f"Not answered: {reason}.", "unknown", "cannot tell", own, "results")
     mine = tables.errors[
         (tables.errors["predicted_source"] == pair[0]) & (tables.errors["reference_source"] == pair[1])
     ]
@@ -93,6 +96,23 @@ def _model(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | Non
     text = f"Peak normal force: {', '.join(parts)}. {_counted(counts)}."
     text += _tangential(tables, pair) + _histories(tables, pair) + _grades(mine)
     return Verdict(question, text, _tone(counts), _label(counts), own, "results")
+
+
+def _compared(tables: Tables, pair: tuple[str, str]) -> bool:
+    row = _row(tables, pair, "peak_normal_force", "scalar")
+    return row is not None and bool(number(row["compared"]))
+
+
+def _unanswered(tables: Tables, pairs: list[tuple[str, str]]) -> Verdict | None:
+    """Name, in one line, the comparisons for which there is nothing to compare with."""
+    if not pairs:
+        return None
+    texts = []
+    for predicted, reference in pairs:
+        row = _row(tables, (predicted, reference), "peak_normal_force", "scalar")
+        reason = str(row["note"]) if row is not None and row["note"] else "no current reference"
+        texts.append(f"{wording.source(predicted)} against {wording.source(reference)}: {reason}.")
+    return Verdict("What could not be compared?", " ".join(texts), "unknown", "cannot tell", (), "results")
 
 
 def _tangential(tables: Tables, pair: tuple[str, str]) -> str:
@@ -127,9 +147,14 @@ def _grades(errors: pd.DataFrame) -> str:
 
 
 def _claims(tables: Tables, marks: Marks) -> Verdict:
-    counts = count_verdicts(tables.claims)
-    claims = tables.claims["claim_id"].nunique()
-    text = f"{wording.plural(claims, 'published statement')} checked, some against more than one model. {_counted(counts)}."
+    kinds = {str(row.id): str(row.comparability) for row in tables.published.itertuples(index=False)}
+    computed = np.array(
+        [kinds.get(str(name), "computed") == "computed" for name in tables.claims["claim_id"]], dtype=bool
+    )
+    judged = tables.claims[computed & (tables.claims["status"] != "not_compared").to_numpy()]
+    counts = count_verdicts(judged)
+    statements = wording.plural(judged["claim_id"].nunique(), "published statement")
+    text = f"{statements} with a computed counterpart, some against more than one model. {_counted(counts)}."
     return Verdict(
         "Do the models reproduce what the paper states?",
         text,
@@ -141,15 +166,17 @@ def _claims(tables: Tables, marks: Marks) -> Verdict:
 
 
 def _slopes(tables: Tables, marks: Marks) -> Verdict:
-    frame = tables.regression[(tables.regression["set"] == "mean") & (tables.regression["coefficient"] == "a_v")]
+    frame = tables.regression[tables.regression["set"] == "mean"]
     texts: list[str] = []
-    for shape in dict.fromkeys(str(value) for value in frame["shape"]):
-        values = []
-        for record in frame[frame["shape"] == shape].to_dict("records"):
+    for coefficient, name in (("a_v", "Speed, % per m/s"), ("a_theta", "Temperature, % per °C")):
+        values: dict[str, list[str]] = {}
+        for record in records(frame[frame["coefficient"] == coefficient]):
             value = number(record["value"])
             if value is not None:
-                values.append(f"{wording.source(str(record['source']))} {100 * value:.1f}".replace("-", "−"))
-        texts.append(f"{shape.capitalize()}, % per m/s: " + ", ".join(values) + ".")
+                shown = wording.percent(value, 1 if coefficient == "a_v" else 2).removesuffix(" %")
+                values.setdefault(str(record["source"]), []).append(shown)
+        own = [f"{wording.source(source)} {' and '.join(found)}" for source, found in values.items()]
+        texts.append(f"{name} ({' and '.join(dict.fromkeys(map(str, frame['shape'])))}): {'; '.join(own)}.")
     different = tables.regression_differences
     count = sum(str(value).lower() in ("true", "1", "1.0") for value in different["significant"])
     if len(different):
@@ -167,9 +194,16 @@ def _slopes(tables: Tables, marks: Marks) -> Verdict:
 def _foundations(marks: Marks) -> Verdict:
     known = marks.all()
     if not known:
-        return Verdict("What does this rest on?", "No input is assumed or synthetic.", "good", "published or measured", (), "inputs")
+        return Verdict(
+            "What does this rest on?",
+            "No input is assumed or synthetic.",
+            "good",
+            "published or measured",
+            (),
+            "inputs",
+        )
     names = "; ".join(f"{mark.code} {mark.text.split(':')[0]}" for mark in known)
-    text = f"{wording.plural(len(known), 'input')} assumed or synthetic: {names}. Every number they touch carries their tags."
+    text = f"{wording.plural(len(known), 'input')} assumed or synthetic: {names}. Numbers that rest on them carry tags."
     return Verdict("What does this rest on?", text, "warn", "assumptions", known, "inputs")
 
 
@@ -199,4 +233,3 @@ def _label(counts: dict[str, int]) -> str:
 
 def _moved(tone: Tone) -> str:
     return {"good": "unchanged", "bad": "moved"}.get(tone, "not checked")
-

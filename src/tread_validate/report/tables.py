@@ -114,6 +114,11 @@ def _provenance(path: Path) -> dict[str, Any]:
     return data
 
 
+def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
+    """Return the rows as mappings of column to value."""
+    return [{str(key): value for key, value in row.items()} for row in frame.to_dict("records")]
+
+
 def number(value: object) -> float | None:
     """Return a table value as a number, None where nothing (or no number) is written."""
     if isinstance(value, str):
@@ -123,5 +128,5 @@ def number(value: object) -> float | None:
             return None
     if not isinstance(value, int | float) and not hasattr(value, "__float__"):
         return None
-    result = float(value)  # type: ignore[arg-type]
+    result = float(value)
     return None if pd.isna(result) else result

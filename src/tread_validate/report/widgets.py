@@ -113,9 +113,11 @@ def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
         unit = str(record["unit"])
         shown_unit = "" if unit in ("", "1", "-") else f" {unit}"
         reference, predicted = number(record["reference"]), number(record["predicted"])
-        verdict = str(record["verdict"] or "")
-        status = str(record["status"])
-        words = wording.verdict(verdict) if verdict else ("" if status == "current" else wording.status(status))
+        verdict, status, note = str(record["verdict"] or ""), str(record["status"]), str(record["note"] or "")
+        compared = number(record["error"]) is not None
+        # a run that cannot be compared at all says so once, above its values
+        alike = not compared and status not in ("current", "undefined", "no_contact")
+        why = "; ".join(part for part in (wording.status(status), note) if part) if alike else ""
         found.setdefault(str(record["case_id"]), []).append(
             {
                 "q": wording.quantity(str(record["quantity"]), metric),
@@ -124,9 +126,10 @@ def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
                 "a": "–" if reference is None else wording.digits(reference, 4) + shown_unit,
                 "b": "–" if predicted is None else wording.digits(predicted, 4) + shown_unit,
                 "e": wording.error(number(record["error"]), str(record["error_type"]), shown_unit.strip(), metric),
-                "v": words,
-                "tone": wording.TONES.get(verdict, ""),
-                "note": str(record["note"] or ""),
+                "v": "–" if alike else wording.verdict(verdict) if verdict else "",
+                "tone": "" if alike else wording.TONES.get(verdict, ""),
+                "note": "" if alike else note,
+                "why": why,
             }
         )
     return found

@@ -112,16 +112,32 @@ def digits(value: float | None, figures: int = 3) -> str:
     return f"{rounded:.{max(0, figures - 1 - exponent)}f}".replace("-", "−")
 
 
+def plain(value: float | None, figures: int = 6) -> str:
+    """Write a number with up to `figures` significant digits and no zeros that say nothing."""
+    if value is None:
+        return "–"
+    text = digits(value, figures)
+    return text.rstrip("0").rstrip(".") if "." in text and "·" not in text else text
+
+
+def unit(text: str) -> str:
+    """Write a unit as a reader expects it; a number without a unit has none."""
+    return {"1": "", "-": "", "degC": "°C", "1/degC": "1/°C", "deg": "°"}.get(text, text)
+
+
 def signed(text: str) -> str:
     """Put a plus sign before a positive number that has none."""
-    return text if text[:1] in "−–0+∞" and not text.startswith("0.") else f"+{text}"
+    return text if text[:1] in "-−–+∞" or text == "0" else f"+{text}"
 
 
 def percent(value: float | None, decimals: int = 1, sign: bool = False) -> str:
     """Write a fraction in per cent."""
     if value is None or math.isnan(value):
         return "–"
-    text = f"{100.0 * value:+.{decimals}f}" if sign else f"{100.0 * value:.{decimals}f}"
+    text = f"{100.0 * value:.{decimals}f}"
+    if float(text) == 0.0:
+        return f"{text.removeprefix('-')} %"
+    text = signed(text) if sign else text
     return text.replace("-", "−") + " %"
 
 

@@ -35,4 +35,6 @@ def pressure(folder: Path, case: Case, label: str, marks: tuple[Mark, ...]) -> D
         f"{label}, {1e3 * instant:.2f} ms after first touch. Spring model (paper), one value an element, mean over the "
         "block's width; shear of the road on the block, positive towards the leading edge."
     )
-    return draw(folder, f"pressure-{case.case_id}", "Traction on the contact face in mid-contact", caption, paint, marks)
+    return draw(
+        folder, f"pressure-{case.case_id}", "Traction on the contact face in mid-contact", caption, paint, marks
+    )

@@ -48,7 +48,14 @@ def heat(
                 if value is not None:
                     grid[i, j] = value
                 text = "n/a" if value is None else wording.percent(value)
-                axes.text(j, i, f"{facet.columns[j]}\n{text}" if view is not None else "", ha="center", va="center", fontsize=6)
+                axes.text(
+                    j,
+                    i,
+                    f"{facet.columns[j]}\n{text}" if view is not None else "",
+                    ha="center",
+                    va="center",
+                    fontsize=6,
+                )
         axes.imshow(grid, cmap=RAMP, vmin=-limit, vmax=limit, aspect="auto")
         axes.set_xticks([])
         axes.set_yticks(np.arange(len(rows)), labels, fontsize=6)
@@ -60,9 +67,7 @@ def heat(
     return draw(folder, key, f"Error of the peak normal force, {names}", "", paint, marks, size, wide=True)
 
 
-def scatter(
-    folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: str, marks: tuple[Mark, ...]
-) -> Drawn:
+def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: str, marks: tuple[Mark, ...]) -> Drawn:
     """Draw predicted against reference with the ensemble's bias and two standard deviations."""
     frame = tables.errors
     own = frame[(frame["metric"] == "scalar") & (frame["quantity"] == quantity)]
@@ -96,7 +101,9 @@ def scatter(
                 axes.plot(ends, bias * ends, color=look.color, lw=1.2, ls="--")
                 if sigma is not None:
                     spread = np.exp(2.0 * sigma)
-                    axes.fill_between(ends, bias * ends / spread, bias * ends * spread, color=look.color, alpha=0.15, lw=0)
+                    axes.fill_between(
+                        ends, bias * ends / spread, bias * ends * spread, color=look.color, alpha=0.15, lw=0
+                    )
             x, y = np.array(found).T
             label = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
             axes.plot(x, y, look.marker, ms=4, color=look.color, mec="white", mew=0.5, label=label)

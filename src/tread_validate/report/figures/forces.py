@@ -16,6 +16,7 @@ from ..palette import BLUE, GREEN, VERMILION, Look
 from ..tables import Tables, number
 from .style import Drawn, draw
 
+
 def history_panel(
     folder: Path,
     key: str,
@@ -34,7 +35,11 @@ def history_panel(
             keep = thin(history)
             values = history.normal_force if force == "normal" else history.tangential_force
             axes.plot(
-                1e3 * history.time[keep], values[keep], linestyle=look.line, color=look.color, label=wording.source(source)
+                1e3 * history.time[keep],
+                values[keep],
+                linestyle=look.line,
+                color=look.color,
+                label=wording.source(source),
             )
         axes.axhline(0.0, color="#57606a", lw=0.7)
         axes.set(xlabel="time from first touch, ms", ylabel=f"{force} force, N")
@@ -54,7 +59,8 @@ def peaks_panel(
 ) -> Drawn:
     """Draw peak normal force against speed for one shape and temperature: one colour per interference."""
     peaks = {
-        (str(row.source), str(row.case_id)): number(row.peak_normal_force_N) for row in tables.peaks.itertuples(index=False)
+        (str(row.source), str(row.case_id)): number(row.peak_normal_force_N)
+        for row in tables.peaks.itertuples(index=False)
     }
     depths = list(dict.fromkeys(view.levels["interference_mm"] for view in chosen))
     colors = dict(zip(depths, (GREEN, BLUE, VERMILION, *["#57606a"] * len(depths)), strict=False))
@@ -81,13 +87,13 @@ def peaks_panel(
         for depth in depths:
             axes.plot([], [], color=colors[depth], label=f"{depth} mm")
         for source, look in looks.items():
-            axes.plot([], [], color="#57606a", linestyle=look.line, marker=look.marker, ms=4, label=wording.source(source))
+            axes.plot(
+                [], [], color="#57606a", linestyle=look.line, marker=look.marker, ms=4, label=wording.source(source)
+            )
         axes.set(xlabel="surface speed, m/s", ylabel="peak normal force, N")
         axes.set_ylim(bottom=0)
         axes.legend(ncols=2, loc="best")
 
     title = f"Peak normal force against speed, {shape}, {temperature} °C"
-    caption = (
-        "As the paper's Fig. 6, whose values are not published. Colour: interference; line and marker: source."
-    )
+    caption = "As the paper's Fig. 6, whose values are not published. Colour: interference; line and marker: source."
     return draw(folder, f"peaks-{shape}-{temperature}c".replace(" ", "-"), title, caption, paint, marks)

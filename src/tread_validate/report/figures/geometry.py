@@ -42,7 +42,9 @@ def belt_heights(folder: Path, paths: Mapping[str, Case], marks: tuple[Mark, ...
         axes.set(xlabel="distance from the middle of the patch, mm", ylabel="height over the flat patch, mm")
         axes.legend()
 
-    caption = "As the paper's Fig. 8(a). Lines: the path that the block's mount follows; points: smoothed trace heights."
+    caption = (
+        "As the paper's Fig. 8(a). Lines: the path that the block's mount follows; points: smoothed trace heights."
+    )
     return draw(folder, "belt-heights", "Height of the tyre belt", caption, paint, marks)
 
 
@@ -80,7 +82,10 @@ def rig_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
         axes.annotate(f"big wheel, R₂ = {big:g} mm", (0, -0.45 * small), ha="center", fontsize=7.5)
         axes.annotate(f"small wheel, R₁ = {small:g} mm", (0, 1.25 * small), ha="center", fontsize=7.5)
         axes.annotate(
-            "", (0.45 * small, 0.4 * small), (-0.45 * small, 0.4 * small), arrowprops={"arrowstyle": "->", "color": ORANGE}
+            "",
+            (0.45 * small, 0.4 * small),
+            (-0.45 * small, 0.4 * small),
+            arrowprops={"arrowstyle": "->", "color": ORANGE},
         )
         axes.annotate("block's travel", (0, 0.47 * small), ha="center", fontsize=7.5)
         limits = {"xlim": (-2.0 * small, 2.0 * small), "ylim": (-0.75 * small, 2.1 * small)}
@@ -137,7 +142,9 @@ def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...]) -> Drawn
     polygons = _visible(points, bricks)
 
     def paint(axes: Axes) -> None:
-        axes.add_collection(PolyCollection(list(polygons), facecolors="#f4ead2", edgecolors="#3c4650", linewidths=0.3))
+        axes.add_collection(
+            PolyCollection(list(polygons), facecolors="#f4ead2", edgecolors="#3c4650", linewidths=0.3, rasterized=True)
+        )
         axes.autoscale_view()
         axes.set(aspect="equal")
         axes.set_axis_off()

@@ -30,7 +30,7 @@ def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple
             modulus = surrogate_modulus(compound, data)
             axes.plot(data, modulus.real / MPA, "o", ms=3.5, color=BLACK, mfc="none", label="E′, data")
             axes.plot(data, modulus.imag / MPA, "s", ms=3.5, color=BLACK, mfc="none", label="E″, data")
-        axes.plot(w, series.storage_modulus(w) / MPA, color=BLUE, label=f"E′, {series.moduli.size}-term Prony series")
+        axes.plot(w, series.storage_modulus(w) / MPA, color=BLUE, label="E′, Prony series")
         axes.plot(w, series.loss_modulus(w) / MPA, "--", color=VERMILION, label="E″, Prony series")
         axes.axvspan(low, high, color="#eef1f4", zorder=0)
         axes.set(xscale="log", yscale="log", xlabel="angular frequency, rad/s", ylabel="modulus, MPa")
@@ -40,7 +40,8 @@ def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple
     title = f"Storage and loss modulus, compound {name}"
     caption = (
         f"As the paper's Fig. 1. Shaded: the band of the data, {low:g} to {high:g} rad/s at "
-        f"{compound.data_temperature_degC:g} °C; outside it the series extrapolates. Long-term modulus "
+        f"{compound.data_temperature_degC:g} °C; outside it the series extrapolates. {series.moduli.size} of "
+        f"its terms carry a modulus. Long-term modulus "
         f"{series.long_term_modulus / MPA:.3g} MPa, instantaneous {series.instantaneous_modulus / MPA:.3g} MPa."
     )
     return draw(folder, f"moduli-{name}", title, caption, paint, marks)
@@ -52,7 +53,9 @@ def friction(folder: Path, name: str, friction_law: Friction, root: Path, marks:
     speed = np.geomspace(1e-4, 20.0, 241)
 
     def paint(axes: Axes) -> None:
-        for pressure, color, style in zip(PRESSURES, (GREEN, BLUE, BLACK, VERMILION), (":", "--", "-", "-."), strict=True):
+        for pressure, color, style in zip(
+            PRESSURES, (GREEN, BLUE, BLACK, VERMILION), (":", "--", "-", "-."), strict=True
+        ):
             values = rule.kinetic(np.full_like(speed, pressure), speed)
             axes.plot(speed, values, style, color=color, label=f"{pressure / MPA:g} MPa")
         axes.axhline(rule.static_coefficient, color=PURPLE, lw=1.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,29 +12,28 @@ from matplotlib.axes import Axes
 from .. import wording
 from ..content import Mark
 from ..palette import BLACK, Look
-from ..tables import Tables, number
+from ..tables import Tables, number, records
 from .style import HEIGHT, WIDTH, Drawn, draw
 
 NAMES = {"a_v": "a_v, % per m/s", "a_theta": "a_θ, % per °C"}
 
 
-def coefficients(
-    folder: Path, tables: Tables, sources: list[str], coefficient: str, marks: tuple[Mark, ...]
-) -> Drawn:
+def coefficients(folder: Path, tables: Tables, sources: list[str], coefficient: str, marks: tuple[Mark, ...]) -> Drawn:
     """Draw one coefficient of every source and shape with its spread (thick) and confidence interval (thin)."""
     frame = tables.regression[(tables.regression["set"] == "mean") & (tables.regression["coefficient"] == coefficient)]
-    records = []
+    points: list[tuple[str, float, dict[str, Any]]] = []
     for source in sources:
-        for record in frame[frame["source"] == source].to_dict("records"):
+        own = frame[frame["source"] == source].sort_values("shape", ascending=False, kind="stable")
+        for record in records(own):
             value = number(record["value"])
             if value is not None:
-                records.append((source, value, record))
-    if not records:
+                points.append((source, value, record))
+    if not points:
         return Drawn(None, f"No values of {NAMES[coefficient].split(',')[0]} to draw.")
 
     def paint(axes: Axes) -> None:
         labels = []
-        for place, (source, value, record) in enumerate(records):
+        for place, (source, value, record) in enumerate(points):
             own = marks_color(source)
             low, high = number(record["low"]), number(record["high"])
             ci = number(record["ci_low"]), number(record["ci_high"])
@@ -54,8 +54,10 @@ def coefficients(
 
     name = "speed" if coefficient == "a_v" else "temperature"
     title = f"Effect of {name} on the peak normal force"
-    caption = "Marker: mean; thick: spread over the data sets; thin: confidence interval of the mean, where one is given."
-    size = (WIDTH, max(HEIGHT, 0.28 * len(records) + 0.9))
+    caption = (
+        "Marker: mean; thick: spread over the data sets; thin: confidence interval of the mean, where one is given."
+    )
+    size = (WIDTH, max(HEIGHT, 0.28 * len(points) + 0.9))
     return draw(folder, f"coefficient-{coefficient.replace('_', '-')}", title, caption, paint, marks, size)
 
 
@@ -76,7 +78,13 @@ def residuals(
             shift = 0.012 * span * (place - 0.5 * (len(sources) - 1))  # side by side, so that none hides another
             look = looks[source]
             axes.plot(
-                own["x"] + shift, own["residual_percent"], look.marker, ms=3.5, color=look.color, mfc="none", label=wording.source(source)
+                own["x"] + shift,
+                own["residual_percent"],
+                look.marker,
+                ms=3.5,
+                color=look.color,
+                mfc="none",
+                label=wording.source(source),
             )
         axes.axhline(0.0, color="#57606a", lw=0.7)
         unit = {"m/s": "surface speed, m/s", "degC": "temperature, °C"}.get(str(frame["x_unit"].iloc[0]), "x")
@@ -86,5 +94,10 @@ def residuals(
     name = "speed" if coefficient == "a_v" else "temperature"
     caption = "A curve in the residuals says that the force is not linear, as Eq. (4) of the paper takes it to be."
     return draw(
-        folder, f"residuals-{coefficient.replace('_', '-')}", f"Residuals of the {name} regressions", caption, paint, marks
+        folder,
+        f"residuals-{coefficient.replace('_', '-')}",
+        f"Residuals of the {name} regressions",
+        caption,
+        paint,
+        marks,
     )

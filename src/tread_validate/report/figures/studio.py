@@ -37,9 +37,7 @@ class Studio:
         found = []
         for name in ("a_v", "a_theta"):
             own = self.marks.of_column(frame.loc[frame["coefficient"] == name, "assumed"])
-            found.append(
-                regressions.coefficients(self.folder, self.tables, regression_sources(self.tables), name, own)
-            )
+            found.append(regressions.coefficients(self.folder, self.tables, regression_sources(self.tables), name, own))
         for name in ("a_v", "a_theta"):
             rows = self.tables.regression_residuals
             own = self.marks.of_column(rows.loc[rows["coefficient"] == name, "assumed"])
@@ -50,7 +48,9 @@ class Studio:
         """Draw the still heat map of every model."""
         frame = self.tables.errors
         marks = self.marks.of_column(frame["assumed"])
-        pairs = dict.fromkeys(zip(map(str, frame["predicted_source"]), map(str, frame["reference_source"]), strict=True))
+        pairs = dict.fromkeys(
+            zip(map(str, frame["predicted_source"]), map(str, frame["reference_source"]), strict=True)
+        )
         return tuple(errors.heat(self.folder, self.tables, self.views, pair, marks) for pair in pairs)
 
     def scatter(self) -> tuple[Drawn, ...]:
@@ -157,7 +157,9 @@ class Studio:
         rigs = [case for case in cases.values() if isinstance(case.path, Rig)]
         found: list[Drawn] = []
         if belts:
-            marks = self.marks.of(*(f"path {name} ({case.path.origin})" for name, case in belts.items() if _made_up(case)))
+            marks = self.marks.of(
+                *(f"path {name} ({case.path.origin})" for name, case in belts.items() if _made_up(case))
+            )
             found += [
                 geometry.belt_heights(self.folder, belts, marks),
                 geometry.belt_curvature(self.folder, belts, marks),

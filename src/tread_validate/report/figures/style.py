@@ -6,18 +6,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as Canvas
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ...files import atomic_path
 from ..content import Figure, Mark
 from ..marks import in_words
 
 WIDTH, HEIGHT = 4.7, 3.2  # inches: legible on a phone, two abreast on a desk
-RC = {
+RC: dict[Any, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 9.0,
     "axes.titlesize": 9.0,
@@ -81,10 +83,12 @@ def draw(
         paint(axes)
         if marks:
             canvas.text(0.995, 0.995, in_words(marks), ha="right", va="top", fontsize=6.0, color="#6b5200")
-            canvas.get_layout_engine().set(rect=(0, 0, 1, 0.965))  # type: ignore[union-attr]
+            engine = canvas.get_layout_engine()
+            assert isinstance(engine, ConstrainedLayoutEngine)
+            engine.set(rect=(0, 0, 1, 0.965))
         svg = folder / f"{key}.svg"
         with atomic_path(svg) as temporary:
-            canvas.savefig(temporary, format="svg", metadata={"Date": None, "Creator": None})
+            canvas.savefig(temporary, format="svg", dpi=2 * DPI, metadata={"Date": None, "Creator": None})
         with atomic_path(folder / f"{key}.png") as temporary:
             canvas.savefig(temporary, format="png", dpi=DPI, metadata={"Software": None})
     return Drawn(Figure(key, title, caption, svg, marks, wide))

@@ -10,8 +10,8 @@ TV.browser = (function () {
     let sum = 0;
     return {
       time: packed.t.map((step) => (sum += step) * packed.ts),
-      normal: packed.n.map((value) => value * packed.fs),
-      tangential: packed.q.map((value) => value * packed.fs),
+      normal: packed.n.map((value) => value * packed.ns),
+      tangential: packed.q.map((value) => value * packed.qs),
       slipping: packed.s.map((value) => value / 1000),
     };
   }
@@ -69,7 +69,9 @@ TV.browser = (function () {
     for (const row of data.errors[current.id] || []) {
       const pair = row.p + " against " + row.r;
       if (pair !== last) {
-        body.append(TV.element("tr", { class: "group" }, TV.element("th", { colspan: 5, scope: "colgroup" }, pair)));
+        const head = TV.element("th", { colspan: 5, scope: "colgroup" }, pair);
+        if (row.why) { head.append(TV.element("span", { class: "why" }, row.why)); }
+        body.append(TV.element("tr", { class: "group" }, head));
         last = pair;
       }
       const verdict = TV.element("td", { class: "verdict " + (row.tone ? row.tone + "-text" : "") }, row.v);
