@@ -25,6 +25,8 @@ VERBS = {
     "compare": "compare",
     "regress": "regress",
     "tables": "tables",
+    "check": "check",
+    "accept": "accept",
     "report": "report",
     "import-abaqus": "import_abaqus",
     "stimulus": "stimulus",

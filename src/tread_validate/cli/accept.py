@@ -1,0 +1,32 @@
+"""`tread-validate accept`: make the tables of today the baseline."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    reason: Annotated[str, typer.Option("--reason", help="why the new numbers are right")],
+    tables: Annotated[Path, typer.Argument(help="folder of the comparison's tables")] = Path("results/tables"),
+    baseline: Annotated[Path, typer.Option("--baseline", help="folder of the baseline")] = Path("reports/baseline"),
+    who: Annotated[str | None, typer.Option("--who", help="who accepts; git's user name if left out")] = None,
+    allow_dirty: Annotated[
+        bool, typer.Option("--allow-dirty", help="accept from a tree with uncommitted changes")
+    ] = False,
+    allow_stale: Annotated[
+        bool, typer.Option("--allow-stale", help="accept although references are stale; check goes on failing")
+    ] = False,
+) -> None:
+    """Record the tables as the baseline, with reason, person, date and commit.
+
+    Example: tread-validate accept --reason "default step halved: peaks move by 0.02 %"
+    """
+    from ..compare.accept import accept
+
+    made = accept(tables, baseline, reason, who=who, allow_dirty=allow_dirty, allow_stale=allow_stale)
+    facts = made.acceptance
+    typer.echo(f"{len(made.rows)} rows accepted in {baseline}: {facts.reason}")
+    typer.echo(f"by {facts.who}, {facts.when}, code {facts.commit}")
