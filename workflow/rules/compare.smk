@@ -31,6 +31,8 @@ rule tables:
         references=lambda wildcards, input: Path(input.package).parent,
         decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
         folder=lambda wildcards, output: Path(output.errors).parent,
+    message:
+        "Comparing every run with its reference"
     shell:
         "tread-validate tables {input.study} --spring {params.spring} --references {params.references} "
         "--decks {params.decks} -o {params.folder} > {log} 2>&1"

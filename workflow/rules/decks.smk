@@ -15,5 +15,7 @@ rule decks:
         ENVIRONMENT
     params:
         folder=lambda wildcards, output: Path(output.inp[0]).parents[1],
+    message:
+        "Writing the decks of all cases"
     shell:
         "tread-validate deck {input.study} --all -o {params.folder} > {log} 2>&1"

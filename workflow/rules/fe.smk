@@ -13,6 +13,8 @@ checkpoint stale_references:
     params:
         decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
         references=REFERENCES,
+    message:
+        "Looking for stale references"
     shell:
         "tread-validate stale {input.study} --decks {params.decks} --references {params.references} "
         "-o {output} > {log} 2>&1"
@@ -32,6 +34,8 @@ rule fe:
     conda:
         ENVIRONMENT
     threads: 1
+    message:
+        "Running the FE engine on {wildcards.case}"
     shell:
         "tread-validate fe {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
 
@@ -48,6 +52,8 @@ rule reference:
         engine=ENGINE,
         references=lambda wildcards, input: Path(input.convergence[0]).parents[2],
         mesh=lambda wildcards, input: Path(input.convergence[0]).parent,
+    message:
+        "Filing the reference runs"
     shell:
         "tread-validate file-references {input.histories} --engine {params.engine} --convergence {params.mesh} "
         "--references {params.references} > {log} 2>&1"

@@ -14,6 +14,8 @@ rule mesh_deck:
         folder=lambda wildcards, output: Path(output.inp).parents[1],
         element=lambda wildcards: wildcards.size.replace("p", "."),
         layers=lambda wildcards: MESH_LAYERS[wildcards.size],
+    message:
+        "Writing the {wildcards.size} mm deck of {wildcards.case}"
     shell:
         "tread-validate deck {input.study} --case {wildcards.case} --element-size {params.element} "
         "--layers {params.layers} -o {params.folder} > {log} 2>&1"
@@ -31,6 +33,8 @@ rule mesh_run:
         "logs/benchmarks/mesh-{size}/{case}.tsv"
     conda:
         ENVIRONMENT
+    message:
+        "Running {wildcards.case} on the {wildcards.size} mm mesh"
     shell:
         "tread-validate fe {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
 
@@ -51,6 +55,8 @@ rule mesh_error:
     params:
         sizes=" ".join(f"--size {size.replace('p', '.')}" for size in MESH_LAYERS),
         used=study.model.deck.element_size_mm,
+    message:
+        "Extrapolating the {wildcards.kind} case to element size 0"
     shell:
         "tread-validate mesh-error {input} {params.sizes} --used {params.used} --kind {wildcards.kind} "
         "-o {output} > {log} 2>&1"
@@ -66,5 +72,7 @@ rule mesh_study:
         ENVIRONMENT
     params:
         target=MESH_ERRORS,
+    message:
+        "Filing the mesh study"
     shell:
         "mkdir -p {params.target} && cp {input} {params.target} > {log} 2>&1"

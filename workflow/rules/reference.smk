@@ -13,5 +13,7 @@ rule references:
         ENVIRONMENT
     params:
         folder=lambda wildcards, input: Path(input.package).parent,
+    message:
+        "Checking the reference data"
     shell:
         "tread-validate references {params.folder} -o {output} > {log} 2>&1"

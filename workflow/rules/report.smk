@@ -26,6 +26,8 @@ rule report:
         references=lambda wildcards, input: Path(input.package).parent,
         decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
         folder=lambda wildcards, output: Path(output.page).parent,
+    message:
+        "Writing the report"
     shell:
         "tread-validate report {input.study} --tables {params.tables} --spring {params.spring} "
         "--references {params.references} --decks {params.decks} -o {params.folder} > {log} 2>&1"

@@ -14,5 +14,7 @@ rule spring:
         ENVIRONMENT
     params:
         folder=lambda wildcards, output: str(Path(output.summary).parent),
+    message:
+        "Running the spring model {wildcards.variant}"
     shell:
         "tread-validate spring {input.study} --all --variant {wildcards.variant} -o {params.folder} > {log} 2>&1"
