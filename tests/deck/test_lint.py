@@ -78,9 +78,8 @@ BROKEN_RIG: list[tuple[str, str, str, str, str]] = [
      "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , TREAD_ROAD\n",
      "vfric-general-contact", "USER=FRIC"),
     ("the other friction routine in a pair", "USER=FRIC,", "USER=COEFFICIENT,", "vfric-general-contact", "COEFFICIENT"),
-
-        ("softened contact with VFRIC", r"(\*FRICTION)", r"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL\n0.1, 1.\n\1",
-     "vfric-softened", "EXPONENTIAL"),
+    ("softened contact with VFRIC", r"(\*FRICTION)",
+     r"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL\n0.1, 1.\n\1", "vfric-softened", "EXPONENTIAL"),
     ("elastic slip with VFRIC", "USER=FRIC,", "USER=FRIC, ELASTIC SLIP=0.1,", "vfric-softened", "ELASTIC SLIP"),
     ("properties that do not add up", "PROPERTIES=10", "PROPERTIES=9", "vfric-properties", "PROPERTIES=9"),
     ("properties without a count", ", PROPERTIES=10", "", "vfric-properties", "USER=FRIC"),
