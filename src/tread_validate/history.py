@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .errors import InputError, one_line
 from .files import read_text, write_text
+from .provenance import sha256_text
 
 COLUMNS = ("time_s", "normal_force_N", "tangential_force_N", "slipping_fraction")
 
@@ -51,6 +52,11 @@ class History:
     def write_csv(self, path: Path | str) -> None:
         """Write the history with its provenance in ``# key: value`` lines, atomically."""
         write_text(path, self.to_csv())
+
+    def digest(self) -> str:
+        """Return the SHA-256 of the numbers alone: another commit or date in the provenance does not change it."""
+        rows = [line for line in self.to_csv().splitlines() if not line.startswith("#")]
+        return sha256_text("\n".join(rows))
 
     def to_csv(self) -> str:
         """Return the CSV text (time to 1 ns, forces to 10 µN)."""

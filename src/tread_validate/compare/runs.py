@@ -9,7 +9,7 @@ from pathlib import Path
 from ..errors import InputError, one_line
 from ..files import read_text
 from ..history import History
-from ..provenance import deck_digest, sha256_file
+from ..provenance import deck_digest
 from ..reference import load_fe
 from ..study import Case
 from .scalars import Scalars, scalars
@@ -100,7 +100,7 @@ def _spring_run(source: str, case: Case, path: Path) -> SourceRun:
         history = History.read_csv(path)
     except InputError as error:
         return SourceRun(source, case.case_id, "corrupt", one_line(f"{path.name}: {error.found}"))
-    digest = sha256_file(path)
+    digest = history.digest()
     made_from = history.provenance.get("case_digest")
     if made_from is not None and made_from != case.digest():
         note = f"made from other inputs ({made_from[:12]}, today {case.digest()[:12]})"
