@@ -21,6 +21,7 @@ VERBS = {
     "cases": "cases",
     "deck": "deck",
     "lint": "lint",
+    "fe": "fe",
     "spring": "spring",
     "compare": "compare",
     "regress": "regress",

@@ -1,0 +1,39 @@
+"""`tread-validate fe`: run a deck in the embedded explicit engine."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    deck: Annotated[Path, typer.Argument(help="deck (.inp) of the documented subset, in mm, tonne, s, MPa, N")],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="history CSV; energies, contact forces, face and record go beside it")
+    ],
+    user: Annotated[Path | None, typer.Option("--user", help="friction routine, vfric.f")] = None,
+    frames: Annotated[Path | None, typer.Option("--frames", help="folder for .vtu frames of the last step")] = None,
+    threads: Annotated[int, typer.Option("--threads", min=1, help="threads; the answer does not depend on it")] = 1,
+) -> None:
+    """Run a deck in the embedded explicit engine and write the history of its last step.
+
+    Example: tread-validate fe fe_inputs/ID/ID.inp --user fe_inputs/ID/vfric.f -o results/fe/embedded/ID.csv
+    """
+    from ..fe import run_deck
+    from ..fe.progress import shown_progress
+
+    if output.suffix != ".csv":
+        from ..errors import InputError
+
+        raise InputError("--output", output, "a file that ends in .csv")
+    with shown_progress(deck.stem, sys.stderr) as progress:
+        result = run_deck(deck, user, threads=threads, frames=frames, progress=progress)
+    result.write(output)
+    record = result.record
+    typer.echo(
+        f"{output}: {result.history.time.size} samples, peak normal force {result.history.normal_force.max():.2f} N; "
+        f"{record['elements']} elements, {record['increments']} increments in {record['wall_time_s']:.1f} s"
+    )

@@ -1,0 +1,265 @@
+"""Elements packed into blocks of lanes: gradients, hourglass data, masses, and the stable step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from . import element_kernel as kernel
+from .mesh import Mesh
+from .model import Model
+from .relaxation import Relaxation, relaxation_of
+
+Floats = NDArray[np.float64]
+LANES = kernel.LANES
+CORNERS = np.array(
+    [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]], dtype=float
+)
+HOURGLASS_PATTERNS = np.stack(
+    [
+        CORNERS[:, 1] * CORNERS[:, 2],
+        CORNERS[:, 0] * CORNERS[:, 2],
+        CORNERS[:, 0] * CORNERS[:, 1],
+        CORNERS[:, 0] * CORNERS[:, 1] * CORNERS[:, 2],
+    ]
+)
+# Stiffness of an hourglass mode of amplitude q: energy (c/2) G V (sum of squared gradients) q^2, c by control.
+HOURGLASS_COEFFICIENT = 0.05
+
+
+def mean_gradients(corners: Floats) -> tuple[Floats, Floats]:
+    """Return the volume (m,) and the mean shape-function gradients (m, 3, 8) of hexahedra.
+
+    Exact integrals over the element by 2 x 2 x 2 Gauss points; `corners` is (m, 8, 3).
+    """
+    volume = np.zeros(corners.shape[0])
+    total = np.zeros((corners.shape[0], 3, 8))
+    for point in CORNERS / np.sqrt(3.0):
+        factors = 1.0 + CORNERS * point
+        local = np.stack(
+            [
+                CORNERS[:, 0] * factors[:, 1] * factors[:, 2],
+                CORNERS[:, 1] * factors[:, 0] * factors[:, 2],
+                CORNERS[:, 2] * factors[:, 0] * factors[:, 1],
+            ]
+        )
+        jacobian = (local / 8.0) @ corners
+        determinant = np.linalg.det(jacobian)
+        volume += determinant
+        with np.errstate(all="ignore"):
+            usable = np.where(np.abs(determinant)[:, None, None] > 0, jacobian, np.eye(3))
+        total += determinant[:, None, None] * np.linalg.solve(
+            usable, np.broadcast_to(local / 8.0, (len(corners), 3, 8))
+        )
+    return volume, total / np.where(volume == 0, 1.0, volume)[:, None, None]
+
+
+@dataclass
+class Blocks:
+    """Element data in the layout of the kernel, and the same per element.
+
+    Attributes
+    ----------
+    conn : (blocks, 8, LANES) int32; geo, state : (blocks, rows, LANES); kind : (blocks,) int32
+    order : (blocks * LANES,) int
+        Element index in each lane, -1 where a lane is empty.
+    spectra : list of Relaxation
+        One per row of the material tables (material and temperature).
+    gradients : (m, 3, 8); volume, density, shear, bulk, hourglass : (m,)
+    mass : (n,) nodal masses
+    slots, slot_start : ints
+        Where in the flat force array each node gathers from: rows of `LANES`, x then y then z.
+    """
+
+    conn: NDArray[np.int32]
+    geo: Floats
+    state: Floats
+    kind: NDArray[np.int32]
+    order: NDArray[np.int64]
+    spectra: list[Relaxation]
+    kind_of_element: NDArray[np.int64]
+    gradients: Floats
+    volume: Floats
+    density: Floats
+    shear: Floats
+    bulk: Floats
+    hourglass: Floats
+    mass: Floats
+    slots: NDArray[np.int32]
+    slot_start: NDArray[np.int32]
+    connectivity: NDArray[np.int64]
+
+    @property
+    def terms(self) -> int:
+        """Number of Prony recursions an element carries."""
+        return max((spectrum.times.size for spectrum in self.spectra), default=0)
+
+    def frequency_squared(self, gradient_of_displacement: Floats | None = None) -> Floats:
+        """Return a bound on the square of each element's highest angular frequency, (m,).
+
+        With lumped mass rho V/8 and M = sum b b^T over the nodes, the dilatation and shear of the one-point element give
+        8 (lambda tr M + 2 G max eig M)/rho; it reduces to 4 c^2 sum 1/l^2 for a nearly incompressible brick. Gradients
+        follow the deformation when F - 1, shape (m, 3, 3), is given.
+        """
+        b = self.gradients
+        if gradient_of_displacement is not None:
+            f = gradient_of_displacement + np.eye(3)
+            b = np.linalg.solve(np.swapaxes(f, 1, 2), b)
+        m = b @ np.swapaxes(b, 1, 2)
+        trace = np.trace(m, axis1=1, axis2=2)
+        largest = np.linalg.eigvalsh(m)[:, 2]
+        lame = self.bulk - 2.0 / 3.0 * self.shear
+        bulk = 8.0 * (np.maximum(lame, 0.0) * trace + 2.0 * self.shear * largest) / self.density
+        return np.asarray(np.maximum(bulk, self.hourglass / (self.density * self.volume)), dtype=np.float64)
+
+
+def pack(model: Model, duration: float) -> Blocks:
+    """Build the blocks of a model for a run of `duration`.
+
+    Raises
+    ------
+    InputError
+        An element of no or negative volume.
+    """
+    mesh = model.mesh
+    corners = mesh.coordinates[mesh.connectivity]
+    volume, gradients = mean_gradients(corners)
+    bad = np.flatnonzero(~(volume > 0))
+    if bad.size:
+        label = mesh.element_labels[bad[0]]
+        raise InputError(f"element {label}", f"volume {volume[bad[0]]:g}", "a positive volume (node order of C3D8R)")
+    kinds, spectra, section_of = _kinds(model, duration)
+    shear = np.array([spectra[k].shear for k in kinds])
+    bulk = np.array([spectra[k].bulk for k in kinds])
+    density = np.array([model.sections[s].material.density for s in section_of])
+    hourglass = _hourglass_stiffness(model, section_of, kinds, spectra, gradients, volume)
+    order = _order(kinds)
+    blocks = Blocks(
+        conn=np.zeros((0, 8, LANES), dtype=np.int32),
+        geo=np.zeros((order.size // LANES, kernel.GEO_ROWS, LANES)),
+        state=np.zeros((order.size // LANES, kernel.STATE_ROWS, LANES)),
+        kind=kinds[order.reshape(-1, LANES)[:, 0]].astype(np.int32),
+        order=order,
+        spectra=spectra,
+        kind_of_element=kinds,
+        gradients=gradients,
+        volume=volume,
+        density=density,
+        shear=shear,
+        bulk=bulk,
+        hourglass=hourglass,
+        mass=np.zeros(0),
+        slots=np.zeros(0, dtype=np.int32),
+        slot_start=np.zeros(0, dtype=np.int32),
+        connectivity=mesh.connectivity,
+    )
+    _fill(blocks, mesh, corners)
+    set_masses(blocks, mesh)
+    return blocks
+
+
+def _kinds(model: Model, duration: float) -> tuple[NDArray[np.int64], list[Relaxation], NDArray[np.int64]]:
+    """Return the material row of each element (material and temperature), the rows, and each element's section."""
+    count = model.mesh.element_labels.size
+    kinds = np.zeros(count, dtype=np.int64)
+    section_of = np.zeros(count, dtype=np.int64)
+    spectra: list[Relaxation] = []
+    for number, section in enumerate(model.sections):
+        section_of[section.elements] = number
+        material = section.material
+        if material.trs is None or not material.prony.size or model.temperature is None:
+            kinds[section.elements] = len(spectra)
+            spectra.append(relaxation_of(material, 0.0, duration))
+            continue
+        mean = model.temperature[model.mesh.connectivity[section.elements]].mean(axis=1).round(3)
+        for value in np.unique(mean):
+            kinds[section.elements[mean == value]] = len(spectra)
+            spectra.append(relaxation_of(material, float(value), duration))
+    return kinds, spectra, section_of
+
+
+def _hourglass_stiffness(
+    model: Model,
+    section_of: NDArray[np.int64],
+    kinds: NDArray[np.int64],
+    spectra: list[Relaxation],
+    gradients: Floats,
+    volume: Floats,
+) -> Floats:
+    """Return the stiffness of each element's hourglass amplitudes.
+
+    STIFFNESS takes the instantaneous shear modulus, RELAX STIFFNESS the long-term one; ENHANCED takes the stiffness that
+    a bending mode of a brick has under full integration.
+    """
+    out = np.zeros(section_of.size)
+    squares = (gradients**2).sum(axis=(1, 2)) * volume
+    for number, section in enumerate(model.sections):
+        mine = section_of == number
+        shear, _ = section.material.shear_and_bulk()
+        relaxed = shear * (1.0 - float(section.material.prony[:, 0].sum()))
+        if section.hourglass == "ENHANCED":
+            coefficient, modulus = 4.0 / 3.0, relaxed
+        else:
+            coefficient, modulus = HOURGLASS_COEFFICIENT, shear if section.hourglass == "STIFFNESS" else relaxed
+        out[mine] = section.hourglass_scale * coefficient * modulus * squares[mine]
+    return out
+
+
+def _order(kinds: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the element in each lane: elements of one kind in their order, padded to whole blocks with -1."""
+    parts = []
+    for kind in np.unique(kinds):
+        own = np.flatnonzero(kinds == kind)
+        parts.append(np.concatenate([own, np.full(-own.size % LANES, -1)]))
+    return np.concatenate(parts)
+
+
+def _fill(blocks: Blocks, mesh: Mesh, corners: Floats) -> None:
+    order = blocks.order
+    used = order >= 0
+    own = order[used]
+    dummy = mesh.node_labels.size
+    conn = np.full((order.size, 8), dummy, dtype=np.int32)
+    conn[used] = mesh.connectivity[own]
+    blocks.conn = np.ascontiguousarray(3 * conn.reshape(-1, LANES, 8).transpose(0, 2, 1)).astype(np.int32)
+    rows = np.zeros((order.size, kernel.GEO_ROWS))
+    rows[used, : kernel.GEO_G] = blocks.gradients[own].reshape(own.size, 24)
+    offsets = np.einsum("ha,eaj->ehj", HOURGLASS_PATTERNS, corners[own])
+    rows[used, kernel.GEO_G : kernel.GEO_VOLUME] = offsets.reshape(own.size, 12)
+    rows[used, kernel.GEO_VOLUME] = blocks.volume[own]
+    rows[used, kernel.GEO_HOURGLASS] = blocks.hourglass[own]
+    blocks.geo[:] = rows.reshape(-1, LANES, kernel.GEO_ROWS).transpose(0, 2, 1)
+    blocks.state[:, kernel.STATE_U : kernel.STATE_U + 3] = 1.0
+    lane = np.flatnonzero(used)
+    first = (lane // LANES * 24 * LANES + lane % LANES)[:, None] + 3 * LANES * np.arange(8)
+    node = mesh.connectivity[own].ravel()
+    sorting = np.argsort(node, kind="stable")
+    blocks.slots = first.ravel()[sorting].astype(np.int32)
+    blocks.slot_start = np.searchsorted(node[sorting], np.arange(dummy + 1)).astype(np.int32)
+
+
+def set_masses(blocks: Blocks, mesh: Mesh) -> None:
+    """Lump rho V/8 of each element on its nodes."""
+    share = np.repeat(blocks.density * blocks.volume / 8.0, 8)
+    blocks.mass = np.bincount(mesh.connectivity.ravel(), weights=share, minlength=mesh.node_labels.size)
+
+
+def set_bulk_viscosity(blocks: Blocks, model: Model, linear: float, quadratic: float) -> None:
+    """Write the bulk viscosity of a step into the blocks: b1 rho c L and rho (b2 L)^2, with L = 2 c/omega."""
+    wave = np.sqrt((blocks.bulk + 4.0 / 3.0 * blocks.shear) / blocks.density)
+    length = 2.0 * wave / np.sqrt(blocks.frequency_squared())
+    one = np.ones(blocks.volume.size)
+    two = np.ones(blocks.volume.size)
+    for section in model.sections:
+        one[section.elements] = section.linear_scale
+        two[section.elements] = section.quadratic_scale
+    rows = np.zeros((blocks.order.size, 2))
+    used = blocks.order >= 0
+    own = blocks.order[used]
+    rows[used, 0] = (linear * one * blocks.density * wave * length)[own]
+    rows[used, 1] = (blocks.density * (quadratic * two * length) ** 2)[own]
+    first = kernel.GEO_BULK_LINEAR
+    blocks.geo[:, first : first + 2] = rows.reshape(-1, LANES, 2).transpose(0, 2, 1)

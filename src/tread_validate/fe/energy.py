@@ -1,0 +1,106 @@
+"""Energies of the model: kinetic, strain, viscoelastic dissipation, hourglass, bulk viscosity."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from .element_kernel import GEO_G, GEO_HOURGLASS, GEO_VOLUME, LANES, STATE_BULK, STATE_STRAIN
+
+COLUMNS = (
+    "time_s",
+    "internal",
+    "recoverable_strain",
+    "viscoelastic_dissipation",
+    "artificial",
+    "bulk_viscous",
+    "kinetic",
+    "frictional",
+    "external_work",
+    "total",
+)
+
+
+@njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
+def element_energies(elements, weights, times, u):  # type: ignore[no-untyped-def]
+    """Return stored energy, dissipation rate, hourglass energy and bulk viscous work of all elements.
+
+    A term of weight g holds q = g e for its spring's strain e: it stores (2 G |dev q|^2 + K tr q^2)/(2 g) and
+    dissipates twice that over its relaxation time. Per reference volume.
+
+    Parameters
+    ----------
+    elements : Elements
+    weights : (kinds, terms, 2), times : (kinds, terms)
+    """
+    n = LANES
+    d = np.empty(8)
+    stored = 0.0
+    rate = 0.0
+    hourglass = 0.0
+    bulk_work = 0.0
+    terms = elements.hist.shape[1]
+    for b in range(elements.kind.size):
+        k = elements.kind[b]
+        two_g = elements.elastic[k, 0]
+        bulk = elements.elastic[k, 1]
+        for i in range(n):
+            volume = elements.geo[b, GEO_VOLUME, i]
+            if volume == 0.0:
+                continue
+            bulk_work += elements.state[b, STATE_BULK, i]
+            e = STATE_STRAIN
+            d0, d1 = elements.state[b, e, i], elements.state[b, e + 1, i]
+            d2, d3, d4 = elements.state[b, e + 2, i], elements.state[b, e + 3, i], elements.state[b, e + 4, i]
+            theta = elements.state[b, e + 5, i]
+            shape = d0 * d0 + d1 * d1 + (d0 + d1) ** 2 + 2.0 * (d2 * d2 + d3 * d3 + d4 * d4)
+            own = 0.5 * (two_g * elements.elastic[k, 2] * shape + bulk * elements.elastic[k, 3] * theta * theta)
+            stored += volume * own
+            for t in range(terms):
+                tau = times[k, t]
+                if weights[k, t, 0] > 0.0:
+                    d0, d1 = elements.hist[b, t, 0, i], elements.hist[b, t, 1, i]
+                    d2, d3, d4 = elements.hist[b, t, 2, i], elements.hist[b, t, 3, i], elements.hist[b, t, 4, i]
+                    shape = d0 * d0 + d1 * d1 + (d0 + d1) ** 2 + 2.0 * (d2 * d2 + d3 * d3 + d4 * d4)
+                    own = 0.5 * two_g * shape / weights[k, t, 0]
+                    stored += volume * own
+                    rate += volume * 2.0 * own / tau
+                if weights[k, t, 1] > 0.0:
+                    theta = elements.hist[b, t, 5, i]
+                    own = 0.5 * bulk * theta * theta / weights[k, t, 1]
+                    stored += volume * own
+                    rate += volume * 2.0 * own / tau
+            stiff = 0.5 * elements.geo[b, GEO_HOURGLASS, i]
+            for c in range(3):
+                fx = 0.0
+                fy = 0.0
+                fz = 0.0
+                for a in range(8):
+                    d[a] = u[elements.conn[b, a, i] + c]
+                    fx += d[a] * elements.geo[b, a, i]
+                    fy += d[a] * elements.geo[b, 8 + a, i]
+                    fz += d[a] * elements.geo[b, 16 + a, i]
+                p01, p23, p45, p67 = d[0] + d[1], d[2] + d[3], d[4] + d[5], d[6] + d[7]
+                m01, m23, m45, m67 = d[0] - d[1], d[2] - d[3], d[4] - d[5], d[6] - d[7]
+                for alpha in range(4):
+                    if alpha == 0:
+                        q = p01 - p23 - p45 + p67
+                    elif alpha == 1:
+                        q = m01 - m23 - m45 + m67
+                    elif alpha == 2:
+                        q = m01 + m23 + m45 + m67
+                    else:
+                        q = -m01 - m23 + m45 + m67
+                    g = GEO_G + 3 * alpha
+                    q -= fx * elements.geo[b, g, i] + fy * elements.geo[b, g + 1, i] + fz * elements.geo[b, g + 2, i]
+                    hourglass += stiff * (0.125 * q) ** 2
+    return stored, rate, hourglass, bulk_work
+
+
+@njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
+def kinetic_energy(v, mass):  # type: ignore[no-untyped-def]
+    """Return half the sum of m v^2; `v` flat, `mass` per node."""
+    total = 0.0
+    for node in range(mass.size):
+        total += mass[node] * (v[3 * node] ** 2 + v[3 * node + 1] ** 2 + v[3 * node + 2] ** 2)
+    return 0.5 * total

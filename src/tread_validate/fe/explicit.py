@@ -1,0 +1,334 @@
+"""Explicit dynamics of a model: its state, its steps, and what is sampled on the way."""
+
+from __future__ import annotations
+
+import math
+import time as clock_module
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import EngineError, InputError
+from .blocks import Blocks, pack, set_bulk_viscosity, set_masses
+from .constraints import gather_amplitudes, gather_bodies, gather_loads, gather_prescribed
+from .contact_kernel import face_areas
+from .element_kernel import LANES, WORK_ROWS
+from .energy import element_energies, kinetic_energy
+from .explicit_kernel import (
+    BAD_FRICTION,
+    CHUNKS,
+    INVERTED,
+    Bodies,
+    Elements,
+    Nodes,
+    Prescribed,
+    advance,
+    advance_parallel,
+)
+from .model import Model
+from .pairs import PairData, gather_pairs
+from .relaxation import step_coefficients
+from .step_kernel import evaluate_amplitudes
+from .steps import Step
+from .user_friction import UserRoutine, compile_vfric
+
+Floats = NDArray[np.float64]
+Progress = Callable[[float, float], None]
+SAFETY = 0.95  # of the bound on the stable increment
+DEFAULT_SAMPLES = 200
+ENERGY_SAMPLES = 250
+CHECKS = 40  # of the stable increment, a step
+
+
+@dataclass
+class Samples:
+    """What is kept of a step at its sampling times; forces act on the body.
+
+    `time` is the step's; normal and tangential are the sums of normal and frictional contact forces, (n, 3).
+    """
+
+    time: list[float] = field(default_factory=list)
+    normal: list[Floats] = field(default_factory=list)
+    tangential: list[Floats] = field(default_factory=list)
+    slipping: list[float] = field(default_factory=list)
+    reaction: list[Floats] = field(default_factory=list)
+    energy: list[tuple[float, ...]] = field(default_factory=list)
+    pressure: list[NDArray[np.float32]] = field(default_factory=list)
+    traction: list[NDArray[np.float32]] = field(default_factory=list)
+    slip_state: list[NDArray[np.int8]] = field(default_factory=list)
+    nodes: dict[str, list[tuple[Floats, Floats]]] = field(default_factory=dict)
+
+
+class Simulation:
+    """A model under way.
+
+    Parameters
+    ----------
+    model : Model
+    routine : UserRoutine or None
+        The compiled VFRIC where the deck asks for one.
+    threads : int
+        1 or more; the answer does not depend on it.
+    """
+
+    def __init__(self, model: Model, routine: UserRoutine | None = None, threads: int = 1) -> None:
+        self.model = model
+        self.routine = routine
+        self.threads = threads
+        self.duration = sum(step.period for step in model.steps)
+        self.blocks: Blocks = pack(model, self.duration)
+        self._scale_masses()
+        count = model.mesh.node_labels.size
+        mass = self.blocks.mass
+        self.nodes = Nodes(
+            x0=np.append(model.mesh.coordinates, np.zeros((1, 3)), axis=0).ravel(),
+            u=np.zeros(3 * count + 3),
+            v=np.append(model.velocity, np.zeros((1, 3)), axis=0).ravel(),
+            force=np.zeros(3 * count + 3),
+            load=np.zeros(3 * count + 3),
+            inverse_mass=np.append(np.divide(1.0, mass, out=np.zeros(count), where=mass > 0), 0.0),
+        )
+        self.nodes.v.reshape(-1, 3)[:-1][mass == 0] = 0.0
+        self.elements = self._elements()
+        self.bodies: Bodies = gather_bodies(model, mass)
+        self.clock = np.zeros(5)
+        self.work = np.zeros(4)
+        self.dissipated = 0.0
+        self._rate = 0.0
+        self._rate_time = 0.0
+        self.increments = 0
+        self.smallest = math.inf
+        self.largest = 0.0
+        self.samples = Samples()
+        self.start_energy = kinetic_energy(self.nodes.v, mass)
+        self.pairs: list[PairData] = []
+        self.observer: Callable[[float], None] | None = None
+        self.prescribed: Prescribed
+
+    def _scale_masses(self) -> None:
+        """Apply the fixed mass scaling of the first step; later steps keep it."""
+        for number, step in enumerate(self.model.steps):
+            for elements, factor, target, kind in step.mass_scaling:
+                if number:
+                    raise InputError(
+                        step.where, "mass scaling in a later step", "*FIXED MASS SCALING in the first step"
+                    )
+                if factor is not None:
+                    self.blocks.density[elements] *= factor
+                if target is not None:
+                    stable = 2.0 / np.sqrt(self.blocks.frequency_squared()[elements])
+                    ratio = (target / stable) ** 2
+                    self.blocks.density[elements] *= ratio if kind == "UNIFORM" else np.maximum(ratio, 1.0)
+        set_masses(self.blocks, self.model.mesh)
+
+    def _elements(self) -> Elements:
+        b = self.blocks
+        kinds = len(b.spectra)
+        elastic = np.array([[2.0 * s.shear, s.bulk, s.long_term[0], s.long_term[1]] for s in b.spectra])
+        self.weights = np.zeros((kinds, b.terms, 2))
+        self.times = np.ones((kinds, b.terms))
+        for row, spectrum in enumerate(b.spectra):
+            self.weights[row, : spectrum.times.size] = spectrum.weights
+            self.times[row, : spectrum.times.size] = spectrum.times
+        return Elements(
+            conn=b.conn,
+            geo=b.geo,
+            state=b.state,
+            hist=np.zeros((b.kind.size, b.terms, 6, LANES)),
+            decay=np.zeros((kinds, b.terms)),
+            gain=np.zeros((kinds, b.terms, 2)),
+            elastic=elastic,
+            kind=b.kind,
+            out=np.zeros((b.kind.size, 24, LANES)),
+            work=np.zeros((CHUNKS, WORK_ROWS * LANES)),
+            slots=b.slots,
+            slot_start=b.slot_start,
+        )
+
+    def displacement(self) -> Floats:
+        """Return the node displacements, (n, 3)."""
+        return self.nodes.u.reshape(-1, 3)[:-1].copy()
+
+    def stable_increment(self, step: Step) -> float:
+        """Return the automatic increment at this moment: 2/omega, less for bulk viscosity, times the safety factor."""
+        b = self.blocks
+        gradient = np.einsum("nac,nja->ncj", self.nodes.u.reshape(-1, 3)[b.connectivity], b.gradients)
+        omega = math.sqrt(float(b.frequency_squared(gradient).max()))
+        damping = step.linear_viscosity
+        return step.scale * SAFETY * (math.sqrt(1.0 + damping**2) - damping) * 2.0 / omega
+
+    def run(self, progress: Progress | None = None) -> None:
+        """Run every step; samples are those of the last one.
+
+        Raises
+        ------
+        EngineError
+            An element turned inside out or a number overflowed.
+        InputError
+            The friction routine returned a force out of range.
+        """
+        begun = clock_module.monotonic()
+        if self.threads > 1:
+            numba.set_num_threads(min(self.threads, numba.config.NUMBA_NUM_THREADS))  # type: ignore[attr-defined]
+        for number, step in enumerate(self.model.steps):
+            self.samples = Samples()
+            self._begin(number, step)
+            interval = step.history_interval or step.period / DEFAULT_SAMPLES
+            every = max(1, round(step.period / interval / ENERGY_SAMPLES))
+            check = step.period / CHECKS
+            next_check = 0.0
+            mark = 0
+            dt = 0.0
+            done = 0.0
+            while done < step.period * (1.0 - 1e-12):
+                if done >= next_check or step.increment is not None:
+                    dt = self._increment(step, step.period - done)
+                    next_check += check
+                wanted = (mark * interval - done) / dt
+                left = round((step.period - done) / dt)
+                count = min(max(1, math.ceil(wanted - 1e-9) + 1), left)
+                self._advance(count, dt)
+                done = self.clock[1]
+                while mark * interval <= done - dt + 1e-9 * dt:
+                    mark += 1
+                last = done >= step.period * (1.0 - 1e-12)
+                self._sample(dt, energies=len(self.samples.time) % every == 0 or last)
+                if self.observer is not None and number == len(self.model.steps) - 1:
+                    self.observer(done)
+                if progress is not None:
+                    share = self.clock[0] / self.duration
+                    spent = clock_module.monotonic() - begun
+                    progress(share, spent * (1.0 / share - 1.0))
+
+    def _begin(self, number: int, step: Step) -> None:
+        self.clock[1] = 0.0
+        self.clock[3] = number + 1
+        self.amplitudes, rows = gather_amplitudes(step, self.clock[0])
+        a = self.amplitudes
+        evaluate_amplitudes(
+            a.row, a.time, a.table, a.area_table, a.smooth, a.base, a.guess, self.clock[0], a.value, a.area
+        )
+        mass = self.blocks.mass
+        self.prescribed = gather_prescribed(self.model, step, rows, a, self.nodes.u, self.bodies, mass)
+        self.loads = gather_loads(step, rows)
+        self.nodes.load[:] = 0.0
+        before = {data.contact.slave + "/" + data.contact.master: data for data in self.pairs}
+        self.pairs = gather_pairs(self.model, step, self.bodies, self.prescribed, mass, self.nodes.u, self.routine)
+        for data in self.pairs:
+            old = before.get(data.contact.slave + "/" + data.contact.master)
+            if old is not None:
+                data.pair.force[:] = old.pair.force
+                data.arguments.arrays["statev"][:] = old.arguments.arrays["statev"]
+        set_bulk_viscosity(self.blocks, self.model, step.linear_viscosity, step.quadratic_viscosity)
+
+    def _increment(self, step: Step, left: float) -> float:
+        """Choose the increment so that the step ends exactly, and set the Prony coefficients for it."""
+        wanted = step.increment or self.stable_increment(step)
+        dt = left / max(1, math.ceil(left / wanted - 1e-9))
+        for row in range(len(self.blocks.spectra)):
+            decay, gain = step_coefficients(self.times[row], self.weights[row], dt)
+            self.elements.decay[row] = decay
+            self.elements.gain[row] = gain
+        self.smallest = min(self.smallest, dt)
+        self.largest = max(self.largest, dt)
+        return dt
+
+    def _advance(self, count: int, dt: float) -> None:
+        fault = np.zeros(3, dtype=np.int64)
+        run = advance if self.threads == 1 else advance_parallel
+        run(
+            count, dt, self.clock, self.elements, self.nodes, self.amplitudes, self.prescribed, self.loads, self.bodies,
+            tuple(data.pair for data in self.pairs), self.work, fault,
+        )  # fmt: skip
+        self.increments += count
+        if fault[0] == INVERTED:
+            raise EngineError(
+                f"an element turned inside out at {self.clock[0]:.6g} s: increment too long or mesh too coarse"
+            )
+        if fault[0] == BAD_FRICTION:
+            raise self._friction_error(int(fault[1]), int(fault[2]))
+
+    def _friction_error(self, number: int, contact: int) -> InputError:
+        data = self.pairs[number]
+        pair = data.pair
+        node = data.labels[pair.touching[contact]]
+        force = pair.tangential[contact]
+        source = self.routine.source if self.routine else data.contact.where
+        return InputError(
+            f"{source}: VFRIC at {self.clock[0]:.6g} s, node {node}",
+            f"fTangential = {force[0]:g}, {force[1]:g}",
+            f"finite, the first between {-pair.stick_force[contact]:g} and 0",
+        )
+
+    def _sample(self, dt: float, energies: bool) -> None:
+        """Keep the state of the increment just made: forces belong to its start."""
+        s = self.samples
+        time = self.clock[1] - dt
+        s.time.append(max(time, 0.0) if s.time == [] else time)
+        normal = np.zeros(3)
+        tangential = np.zeros(3)
+        touching = slipping = 0.0
+        for data in self.pairs:
+            pair = data.pair
+            if pair.kind[0] != 2:
+                self._areas(data)
+            normal += pair.force[:, 0].sum(axis=0)
+            tangential += pair.force[:, 1].sum(axis=0)
+            touching += float(pair.area[pair.slipping > 0].sum())
+            slipping += float(pair.area[pair.slipping == 2].sum())
+        s.normal.append(normal)
+        s.tangential.append(tangential)
+        s.slipping.append(slipping / touching if touching > 0 else 0.0)
+        pair = self.pairs[0].pair
+        share = np.divide(1.0, pair.area, out=np.zeros_like(pair.area), where=pair.area > 0)
+        s.pressure.append((np.linalg.norm(pair.force[:, 0], axis=1) * share).astype(np.float32))
+        s.traction.append((pair.force[:, 1] * share[:, None]).astype(np.float32))
+        s.slip_state.append(pair.slipping.astype(np.int8))
+        s.reaction.append(self._reaction())
+        for name, nodes in self.model.steps[int(self.clock[3]) - 1].node_history.items():
+            u = self.nodes.u.reshape(-1, 3)[nodes].copy()
+            s.nodes.setdefault(name, []).append((u, self.nodes.v.reshape(-1, 3)[nodes].copy()))
+        if energies:
+            self._sample_energy()
+
+    def _areas(self, data: PairData) -> None:
+        pair = data.pair
+        if pair.slaves.size:
+            face_areas(pair.faces, pair.slaves, self.nodes.x0, self.nodes.u, pair.area)
+
+    def _reaction(self) -> Floats:
+        """Return the sum of the forces that hold prescribed nodes, (3,)."""
+        p = self.prescribed
+        nodal = p.dof[: p.bodies[0]] % 3
+        total = np.bincount(nodal, weights=p.reaction, minlength=3)
+        return np.asarray(total + self.bodies.reaction.sum(axis=0), dtype=np.float64)
+
+    def _sample_energy(self) -> None:
+        stored, rate, hourglass, bulk = element_energies(self.elements, self.weights, self.times, self.nodes.u)
+        now = self.clock[0]
+        self.dissipated += 0.5 * (rate + self._rate) * (now - self._rate_time)
+        self._rate, self._rate_time = rate, now
+        kinetic = kinetic_energy(self.nodes.v, self.blocks.mass)
+        if not math.isfinite(kinetic + stored):
+            raise EngineError(f"the energy is no longer finite at {now:.6g} s")
+        internal = stored + self.dissipated + hourglass
+        external = self.work[0] + self.work[3]
+        total = kinetic + internal + bulk + self.work[1] - external - self.start_energy
+        self.samples.energy.append(
+            (self.clock[1], internal, stored, self.dissipated, hourglass, bulk, kinetic, self.work[1], external, total)
+        )
+
+
+def simulate(model: Model, user: str | None = None, threads: int = 1, progress: Progress | None = None) -> Simulation:
+    """Run a model and return the finished simulation; `user` is the Fortran file of VFRIC."""
+    routine = None
+    if model.needs_user_routine:
+        if user is None:
+            raise InputError(model.deck.path.name, "*FRICTION, USER and no user routine", "--user vfric.f")
+        routine = compile_vfric(user)
+    simulation = Simulation(model, routine, threads)
+    simulation.run(progress)
+    return simulation

@@ -1,0 +1,378 @@
+"""The increment of explicit dynamics, run many times without coming back to the interpreter."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit, prange
+
+from .contact_kernel import apply_friction, coulomb, face_areas, find_contacts
+from .element_kernel import block_forces
+from .step_kernel import (
+    evaluate_amplitudes,
+    gather_forces,
+    kick_and_drift,
+    prescribed_value,
+    pressure_loads,
+    rotate,
+)
+from .user_friction import call_at
+
+CHUNKS = 16  # of the element and node loops; their number does not depend on the number of threads
+OK, INVERTED, BAD_FRICTION = 0, 1, 2
+
+
+class Elements(NamedTuple):
+    """Element data of the kernel (see `block_forces`)."""
+
+    conn: Any
+    geo: Any
+    state: Any
+    hist: Any
+    decay: Any
+    gain: Any
+    elastic: Any
+    kind: Any
+    out: Any
+    work: Any
+    slots: Any
+    slot_start: Any
+
+
+class Nodes(NamedTuple):
+    """Node data; vectors are flat, x y z of each node, with one node more than the mesh for empty lanes."""
+
+    x0: Any
+    u: Any
+    v: Any
+    force: Any
+    load: Any
+    inverse_mass: Any
+
+
+class Amplitudes(NamedTuple):
+    """Every amplitude's table one after the other, and their values now."""
+
+    row: Any
+    time: Any
+    table: Any
+    area_table: Any
+    smooth: Any
+    base: Any
+    guess: Any
+    value: Any
+    area: Any
+
+
+class Prescribed(NamedTuple):
+    """Prescribed degrees of freedom: nodal ones first, then six for each rigid body."""
+
+    dof: Any
+    kind: Any
+    magnitude: Any
+    amplitude: Any
+    start: Any
+    area_start: Any
+    mass: Any
+    reaction: Any
+    before: Any
+    bodies: Any
+
+
+class Loads(NamedTuple):
+    """Concentrated forces and pressures."""
+
+    dof: Any
+    force: Any
+    force_amplitude: Any
+    faces: Any
+    pressure: Any
+    pressure_amplitude: Any
+
+
+class Bodies(NamedTuple):
+    """Rigid bodies: reference points, motion, and the nodes tied to them."""
+
+    reference: Any
+    motion: Any
+    motion_old: Any
+    turn: Any
+    turn_old: Any
+    node: Any
+    body: Any
+    arm: Any
+    mass: Any
+    reaction: Any
+
+
+class Pair(NamedTuple):
+    """A contact pair: slave nodes, master profile, friction and the arrays of its contacts."""
+
+    slaves: Any
+    held: Any
+    mass: Any
+    faces: Any
+    segments: Any
+    origin: Any
+    frame: Any
+    body: Any
+    kind: Any
+    coefficient: Any
+    address: Any
+    table: Any
+    integers: Any
+    reals: Any
+    position: Any
+    touching: Any
+    normal: Any
+    normal_force: Any
+    slip_direction: Any
+    stick_force: Any
+    arrival: Any
+    carried: Any
+    tangential: Any
+    slip: Any
+    previous: Any
+    coordinates: Any
+    master: Any
+    place: Any
+    temperature: Any
+    node_temperature: Any
+    area: Any
+    force: Any
+    slipping: Any
+    count: Any
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def]
+    """Do one chunk of the element loop; return its least volume ratio."""
+    total = elements.kind.size
+    return block_forces(
+        chunk * total // chunks, (chunk + 1) * total // chunks, dt, u, elements.conn, elements.geo, elements.state,
+        elements.hist, elements.decay, elements.gain, elements.elastic, elements.kind, elements.out, elements.work[chunk],
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def node_loop(chunk, chunks, half_sum, dt, elements, nodes):  # type: ignore[no-untyped-def]
+    """Do one chunk of the node loop."""
+    total = elements.slot_start.size - 1
+    first, last = chunk * total // chunks, (chunk + 1) * total // chunks
+    kick_and_drift(first, last, half_sum, dt, nodes.inverse_mass, nodes.force, nodes.load, nodes.v, nodes.u)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def gather_loop(chunk, chunks, elements, nodes):  # type: ignore[no-untyped-def]
+    """Do one chunk of the gathering of element forces."""
+    total = elements.slot_start.size - 1
+    first, last = chunk * total // chunks, (chunk + 1) * total // chunks
+    gather_forces(first, last, elements.out, elements.slots, elements.slot_start, nodes.force)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs):  # type: ignore[no-untyped-def]
+    """Loads at the start of the increment, and what the node loop will overwrite but is still needed."""
+    if loads.dof.size or loads.pressure.size:
+        for dof in range(nodes.load.size):
+            nodes.load[dof] = 0.0
+        for k in range(loads.dof.size):
+            factor = loads.force[k]
+            if loads.force_amplitude[k] >= 0:
+                factor *= amplitudes.value[loads.force_amplitude[k]]
+            nodes.load[loads.dof[k]] += factor
+        pressure_loads(
+            loads.faces, loads.pressure, loads.pressure_amplitude, amplitudes.value, nodes.x0, nodes.u, nodes.load
+        )
+    for k in range(prescribed.bodies[0]):
+        prescribed.before[k] = nodes.v[prescribed.dof[k]]
+    for k in range(bodies.node.size):
+        for c in range(3):
+            bodies.reaction[k, c] = nodes.v[3 * bodies.node[k] + c]
+    for pair in pairs:
+        for k in range(pair.slaves.size):
+            for c in range(3):
+                pair.arrival[k, c] = nodes.v[3 * pair.slaves[k] + c]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bodies, work):  # type: ignore[no-untyped-def]
+    """Put prescribed degrees of freedom and rigid bodies where they are at the end of the increment."""
+    evaluate_amplitudes(
+        amplitudes.row, amplitudes.time, amplitudes.table, amplitudes.area_table, amplitudes.smooth, amplitudes.base,
+        amplitudes.guess, total, amplitudes.value, amplitudes.area,
+    )  # fmt: skip
+    for b in range(bodies.motion.shape[0]):
+        for c in range(6):
+            bodies.motion_old[b, c] = bodies.motion[b, c]
+        for c in range(9):
+            bodies.turn_old[b, c // 3, c % 3] = bodies.turn[b, c // 3, c % 3]
+    for k in range(prescribed.dof.size):
+        target = prescribed_value(
+            prescribed.kind[k], prescribed.magnitude[k], prescribed.amplitude[k], prescribed.start[k],
+            prescribed.area_start[k], step_time, amplitudes.value, amplitudes.area,
+        )  # fmt: skip
+        if k >= prescribed.bodies[0]:
+            bodies.motion[prescribed.dof[k] // 6, prescribed.dof[k] % 6] = target
+            continue
+        dof = prescribed.dof[k]
+        old = nodes.u[dof] - dt * nodes.v[dof]
+        before = prescribed.before[k]
+        now = (target - old) / dt
+        nodes.u[dof] = target
+        nodes.v[dof] = now
+        reaction = prescribed.mass[k] * (now - before) / half_sum + nodes.force[dof] - nodes.load[dof]
+        prescribed.reaction[k] = reaction
+        work[0] += reaction * 0.5 * (before + now) * half_sum
+    for b in range(bodies.motion.shape[0]):
+        rotate(
+            bodies.motion[b, 3] - bodies.motion_old[b, 3],
+            bodies.motion[b, 4] - bodies.motion_old[b, 4],
+            bodies.motion[b, 5] - bodies.motion_old[b, 5],
+            bodies.turn[b],
+        )
+    for k in range(bodies.node.size):
+        b = bodies.body[k]
+        for c in range(3):
+            dof = 3 * bodies.node[k] + c
+            x = bodies.reference[b, c] + bodies.motion[b, c] - nodes.x0[dof]
+            for j in range(3):
+                x += bodies.turn[b, c, j] * bodies.arm[k, j]
+            old = nodes.u[dof] - dt * nodes.v[dof]
+            before = bodies.reaction[k, c]
+            now = (x - old) / dt
+            nodes.u[dof] = x
+            nodes.v[dof] = now
+            reaction = bodies.mass[k] * (now - before) / half_sum + nodes.force[dof] - nodes.load[dof]
+            bodies.reaction[k, c] = reaction
+            work[0] += reaction * 0.5 * (before + now) * half_sum
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pairs, work):  # type: ignore[no-untyped-def]
+    """Correct the trial motion of every pair's slave nodes; return the first contact with a bad friction force or -1."""
+    for number in range(len(pairs)):
+        pair = pairs[number]
+        b = pair.body[0]
+        for c in range(3):
+            pair.place[c] = bodies.reference[b, c] + bodies.motion[b, c]
+            pair.place[3 + c] = bodies.reference[b, c] + bodies.motion_old[b, c]
+        for k in range(pair.slaves.size):
+            for c in range(3):
+                pair.previous[k, c] = pair.force[k, 1, c]
+        count = find_contacts(
+            pair.slaves, pair.held, pair.mass, pair.segments, pair.origin, pair.frame, pair.place, bodies.turn[b],
+            bodies.turn_old[b], half_sum, dt, nodes.x0, nodes.u, nodes.v, pair.touching, pair.normal, pair.normal_force,
+            pair.slip_direction, pair.stick_force, pair.arrival, pair.carried,
+        )  # fmt: skip
+        pair.count[0] = count
+        if pair.kind[0] == 1:
+            coulomb(count, pair.coefficient[0], pair.normal_force, pair.stick_force, pair.tangential)
+        elif pair.kind[0] == 2 and count > 0:
+            face_areas(pair.faces, pair.slaves, nodes.x0, nodes.u, pair.area)
+            for k in range(pair.slaves.size):
+                for c in range(3):
+                    pair.coordinates[k, c] = nodes.x0[3 * pair.slaves[k] + c] + nodes.u[3 * pair.slaves[k] + c]
+            for i in range(count):
+                k = pair.touching[i]
+                pair.position[i] = k + 1
+                pair.temperature[i] = pair.node_temperature[k]
+                for c in range(3):
+                    pair.slip[i, c] = pair.arrival[k, c]
+                    pair.tangential[i, min(c, 1)] = 0.0
+            for i in range(count):
+                k = pair.touching[i]
+                for c in range(3):
+                    # touching is in increasing order and k >= i, so rows not yet moved are never overwritten
+                    pair.previous[i, c] = pair.previous[k, c]
+            for c in range(3):
+                pair.master[0, c] = pair.place[c]
+            pair.integers[0] = step
+            pair.integers[1] = increment
+            pair.integers[2] = count
+            pair.reals[0] = step_time
+            pair.reals[1] = total
+            pair.reals[2] = dt
+            call_at(pair.address[0], pair.table)
+        else:
+            for i in range(count):
+                pair.tangential[i, 0] = 0.0
+                pair.tangential[i, 1] = 0.0
+        bad = apply_friction(
+            count, pair.touching, pair.slaves, pair.mass, pair.normal, pair.normal_force, pair.slip_direction,
+            pair.stick_force, pair.tangential, pair.carried, half_sum, dt, nodes.u, nodes.v, pair.force, pair.slipping, work,
+        )  # fmt: skip
+        if bad >= 0:
+            return number, bad
+    return -1, -1
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]
+    """Do everything of an increment between the node loop and the element loop; return pair and contact gone bad."""
+    clock[0] += dt
+    clock[1] += dt
+    clock[4] += 1.0
+    constrain(half_sum, dt, clock[0], clock[1], nodes, amplitudes, prescribed, bodies, work)
+    found = contact(half_sum, dt, clock[0], clock[1], int(clock[3]), int(clock[4]), nodes, bodies, pairs, work)
+    if loads.dof.size or loads.pressure.size:
+        for dof in range(nodes.load.size):
+            if nodes.load[dof] != 0.0:
+                work[3] += nodes.load[dof] * nodes.v[dof] * dt
+    clock[2] = dt
+    return found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def advance(increments, dt, clock, elements, nodes, amplitudes, prescribed, loads, bodies, pairs, work, fault):  # type: ignore[no-untyped-def]
+    """Run `increments` increments of `dt` on one thread.
+
+    Parameters
+    ----------
+    clock : (5,) total time, step time, length of the increment before, step number, increment number
+    work : (4,) work of the constraints and of the master, frictional dissipation in row 1, work of the loads in row 3
+    fault : (3,) out: kind of fault, pair or 0, contact or 0
+    """
+    for _ in range(increments):
+        half_sum = 0.5 * (clock[2] + dt)
+        before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs)
+        for chunk in range(CHUNKS):
+            node_loop(chunk, CHUNKS, half_sum, dt, elements, nodes)
+        found = finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work)
+        if found[0] >= 0:
+            fault[0], fault[1], fault[2] = BAD_FRICTION, found[0], found[1]
+            return
+        worst = np.inf
+        for chunk in range(CHUNKS):
+            worst = min(worst, element_loop(chunk, CHUNKS, dt, elements, nodes.u))
+        for chunk in range(CHUNKS):
+            gather_loop(chunk, CHUNKS, elements, nodes)
+        if not worst > 0.0:
+            fault[0] = INVERTED
+            return
+
+
+@njit(cache=True, nogil=True, parallel=True, error_model="numpy")
+def advance_parallel(increments, dt, clock, elements, nodes, amplitudes, prescribed, loads, bodies, pairs, work, fault):  # type: ignore[no-untyped-def]
+    """Do what `advance` does, the chunks of its loops spread over threads: the same operations in the same order."""
+    least = np.zeros(CHUNKS)
+    for _ in range(increments):
+        half_sum = 0.5 * (clock[2] + dt)
+        before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs)
+        for chunk in prange(CHUNKS):
+            node_loop(chunk, CHUNKS, half_sum, dt, elements, nodes)
+        found = finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work)
+        if found[0] >= 0:
+            fault[0], fault[1], fault[2] = BAD_FRICTION, found[0], found[1]
+            return
+        for chunk in prange(CHUNKS):
+            least[chunk] = element_loop(chunk, CHUNKS, dt, elements, nodes.u)
+        for chunk in prange(CHUNKS):
+            gather_loop(chunk, CHUNKS, elements, nodes)
+        worst = np.inf
+        for chunk in range(CHUNKS):
+            worst = min(worst, least[chunk])
+        if not worst > 0.0:
+            fault[0] = INVERTED
+            return

@@ -1,0 +1,263 @@
+"""The steps of a deck: duration, constraints, loads, contact and output requests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..inp import Block, DataLine
+from .amplitude import Amplitude
+from .mesh import FACES, Mesh
+
+Ints = NDArray[np.int64]
+FIXED, VELOCITY, DISPLACEMENT = 0, 1, 2
+NAMED_CONDITIONS = {
+    "ENCASTRE": (1, 2, 3, 4, 5, 6),
+    "PINNED": (1, 2, 3),
+    "XSYMM": (1, 5, 6),
+    "YSYMM": (2, 4, 6),
+    "ZSYMM": (3, 4, 5),
+    "XASYMM": (2, 3, 4),
+    "YASYMM": (1, 3, 5),
+    "ZASYMM": (1, 2, 6),
+}
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A prescribed degree of freedom: `kind` FIXED, VELOCITY or DISPLACEMENT, `dof` 1..6."""
+
+    nodes: Ints
+    dof: int
+    kind: int
+    magnitude: float
+    amplitude: Amplitude | None
+    where: str
+
+
+@dataclass(frozen=True)
+class Load:
+    """A concentrated force (`dof` 1..3 on `nodes`) or a pressure (`dof` 0 on `faces`)."""
+
+    nodes: Ints
+    faces: Ints
+    dof: int
+    magnitude: float
+    amplitude: Amplitude | None
+    where: str
+
+
+@dataclass(frozen=True)
+class ContactPair:
+    """A slave surface against an analytical master, with its interaction."""
+
+    slave: str
+    master: str
+    interaction: str
+    where: str
+
+
+@dataclass
+class Step:
+    """One explicit step.
+
+    Attributes
+    ----------
+    period : float
+        Duration.
+    increment : float or None
+        The increment of ``DIRECT USER CONTROL``; None is automatic.
+    """
+
+    name: str
+    where: str
+    period: float = 0.0
+    increment: float | None = None
+    scale: float = 1.0
+    linear_viscosity: float = 0.06
+    quadratic_viscosity: float = 1.2
+    conditions: dict[tuple[int, int], Condition] = field(default_factory=dict)
+    loads: list[Load] = field(default_factory=list)
+    pairs: list[ContactPair] = field(default_factory=list)
+    mass_scaling: list[tuple[Ints, float | None, float | None, str]] = field(default_factory=list)
+    history_interval: float | None = None
+    node_history: dict[str, Ints] = field(default_factory=dict)
+
+
+def read_steps(blocks: list[Block], mesh: Mesh, amplitudes: dict[str, Amplitude]) -> list[Step]:
+    """Read model-level BOUNDARY and every step; conditions, loads and pairs carry over to the next step."""
+    steps: list[Step] = []
+    current = Step("initial", blocks[0].where)
+    history = False
+    for block in blocks:
+        word = block.keyword
+        if word == "STEP":
+            before = current
+            name = block.parameters.get("NAME") or f"Step-{len(steps) + 1}"
+            current = Step(name, block.where, conditions=dict(before.conditions), loads=list(before.loads))
+            current.pairs = list(before.pairs)
+            _refuse_stale(current)
+            history = False
+        elif word == "END STEP":
+            if not current.period > 0:
+                raise InputError(current.where, "a step without *DYNAMIC, EXPLICIT", "a duration above 0")
+            steps.append(current)
+        elif word == "DYNAMIC":
+            _dynamic(block, current)
+        elif word == "BULK VISCOSITY":
+            line = _line(block)
+            current.linear_viscosity = line.number_at(0, "linear bulk viscosity", 0.06)
+            current.quadratic_viscosity = line.number_at(1, "quadratic bulk viscosity", 1.2)
+            if current.linear_viscosity < 0 or current.quadratic_viscosity < 0:
+                raise InputError(line.where, line.text, "bulk viscosities >= 0")
+        elif word == "BOUNDARY":
+            _boundary(block, mesh, amplitudes, current)
+        elif word in ("CLOAD", "DLOAD", "DSLOAD"):
+            _load(block, mesh, amplitudes, current)
+        elif word == "CONTACT PAIR":
+            _pair(block, current)
+        elif word == "FIXED MASS SCALING":
+            _mass_scaling(block, mesh, current)
+        elif word == "OUTPUT":
+            history = "HISTORY" in block.parameters
+            if history and block.parameters.get("TIME INTERVAL"):
+                current.history_interval = _positive(block, "TIME INTERVAL")
+        elif word == "NODE OUTPUT" and history and block.parameters.get("NSET"):
+            name = block.value("NSET")
+            current.node_history[name] = mesh.nodes_of(name, block)
+    if not steps:
+        raise InputError(blocks[0].file, "no *STEP", "at least one *DYNAMIC, EXPLICIT step")
+    return steps
+
+
+def _refuse_stale(step: Step) -> None:
+    """A step-time amplitude has no meaning in the next step's clock."""
+    items: list[Condition | Load] = [*step.conditions.values(), *step.loads]
+    for item in items:
+        if item.amplitude is not None and not item.amplitude.total_time:
+            raise InputError(
+                item.where,
+                f"amplitude {item.amplitude.name} in STEP TIME carried into step {step.name}",
+                "TIME=TOTAL TIME",
+            )
+
+
+def _line(block: Block) -> DataLine:
+    if len(block.data) != 1:
+        raise InputError(f"{block.where}: *{block.keyword}", f"{len(block.data)} data lines", "one data line")
+    return block.data[0]
+
+
+def _positive(block: Block, name: str) -> float:
+    try:
+        value = float(block.value(name))
+    except ValueError:
+        value = float("nan")
+    if not 0 < value < float("inf"):
+        raise InputError(f"{block.where}: *{block.keyword}, {name}", block.value(name), "a number above 0")
+    return value
+
+
+def _dynamic(block: Block, step: Step) -> None:
+    line = _line(block)
+    step.period = line.number_at(1, "the duration of the step")
+    if not step.period > 0:
+        raise InputError(line.where, line.text, "a duration above 0")
+    if "DIRECT USER CONTROL" in block.parameters:
+        step.increment = line.number_at(0, "the increment")
+        if not 0 < step.increment <= step.period:
+            raise InputError(line.where, line.text, "an increment above 0, not longer than the step")
+    elif any(line.fields[i] for i in (0, 2, 3) if i < len(line.fields)):
+        raise InputError(line.where, line.text, "', duration' (automatic increments)")
+    if "SCALE FACTOR" in block.parameters:
+        step.scale = _positive(block, "SCALE FACTOR")
+
+
+def _amplitude(block: Block, amplitudes: dict[str, Amplitude]) -> Amplitude | None:
+    name = block.parameters.get("AMPLITUDE")
+    if name is None:
+        return None
+    if name not in amplitudes:
+        raise InputError(f"{block.where}: *{block.keyword}", f"amplitude {name}", "an *AMPLITUDE that exists")
+    return amplitudes[name]
+
+
+def _boundary(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
+    if block.parameters.get("OP") == "NEW":
+        step.conditions.clear()
+    amplitude = _amplitude(block, amplitudes)
+    velocity = block.parameters.get("TYPE") == "VELOCITY"
+    for line in block.data:
+        fields = line.fields
+        nodes = mesh.nodes_of(fields[0], line)
+        word = fields[1].upper() if len(fields) > 1 else ""
+        if word in NAMED_CONDITIONS:
+            dofs: tuple[int, ...] = NAMED_CONDITIONS[word]
+            magnitude = 0.0
+        else:
+            first = line.integer_at(1, "a degree of freedom 1..6")
+            dofs = tuple(range(first, line.integer_at(2, "a degree of freedom 1..6", first) + 1))
+            magnitude = line.number_at(3, "a magnitude", 0.0)
+            if not dofs or dofs[0] < 1 or dofs[-1] > 6:
+                raise InputError(line.where, line.text, "degrees of freedom 1 to 6, in order")
+        kind = FIXED
+        if magnitude != 0.0:
+            kind = VELOCITY if velocity else DISPLACEMENT
+            if kind == DISPLACEMENT and amplitude is None:
+                raise InputError(line.where, "a displacement without an amplitude", "AMPLITUDE= or TYPE=VELOCITY")
+        for dof in dofs:
+            condition = Condition(nodes, dof, kind, magnitude, amplitude, line.where)
+            for node in nodes:
+                step.conditions[(int(node), dof)] = condition
+
+
+def _load(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
+    if block.parameters.get("OP") == "NEW":
+        cloads = block.keyword == "CLOAD"
+        step.loads = [load for load in step.loads if (load.dof > 0) != cloads]
+    amplitude = _amplitude(block, amplitudes)
+    none = np.zeros(0, dtype=np.int64)
+    for line in block.data:
+        fields = line.fields
+        word = fields[1].upper() if len(fields) > 1 else ""
+        size = line.number_at(2, "a magnitude")
+        if block.keyword == "CLOAD":
+            dof = line.integer_at(1, "a degree of freedom 1..3")
+            if not 1 <= dof <= 3:
+                raise InputError(line.where, line.text, "a degree of freedom 1 to 3")
+            step.loads.append(Load(mesh.nodes_of(fields[0], line), none, dof, size, amplitude, line.where))
+        elif block.keyword == "DSLOAD":
+            name = fields[0].upper()
+            if word != "P" or name not in mesh.faces:
+                raise InputError(line.where, line.text, "element surface, P, magnitude")
+            step.loads.append(Load(none, mesh.faces[name], 0, size, amplitude, line.where))
+        else:
+            if word not in ("P1", "P2", "P3", "P4", "P5", "P6"):
+                raise InputError(line.where, line.text, "element set, P1 to P6, magnitude")
+            faces = mesh.connectivity[mesh.elements_of(fields[0], line)][:, FACES[int(word[1]) - 1]]
+            step.loads.append(Load(none, faces, 0, size, amplitude, line.where))
+
+
+def _pair(block: Block, step: Step) -> None:
+    interaction = block.value("INTERACTION")
+    for line in block.data:
+        if len(line.fields) != 2:
+            raise InputError(line.where, line.text, "slave surface, master surface")
+        slave, master = (text.upper() for text in line.fields)
+        step.pairs.append(ContactPair(slave, master, interaction, line.where))
+
+
+def _mass_scaling(block: Block, mesh: Mesh, step: Step) -> None:
+    name = block.parameters.get("ELSET")
+    elements = np.arange(mesh.element_labels.size) if name is None else mesh.elements_of(name, block)
+    factor = _positive(block, "FACTOR") if "FACTOR" in block.parameters else None
+    target = _positive(block, "DT") if "DT" in block.parameters else None
+    if factor is None and target is None:
+        raise InputError(block.where, "neither FACTOR nor DT", "FACTOR= or DT=")
+    if target is not None and "TYPE" not in block.parameters:
+        raise InputError(block.where, "DT without TYPE", "TYPE=BELOW MIN or TYPE=UNIFORM")
+    kind = block.parameters.get("TYPE") or ""
+    step.mass_scaling.append((elements, factor, target, kind))
