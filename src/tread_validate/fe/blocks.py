@@ -100,14 +100,14 @@ class Blocks:
     def frequency_squared(self, gradient_of_displacement: Floats | None = None) -> Floats:
         """Return a bound on the square of each element's highest angular frequency, (m,).
 
-        With lumped mass rho V/8 and M = sum b b^T over the nodes, the dilatation and shear of the one-point element give
-        8 (lambda tr M + 2 G max eig M)/rho; it reduces to 4 c^2 sum 1/l^2 for a nearly incompressible brick. Gradients
-        follow the deformation when F - 1, shape (m, 3, 3), is given.
+        With lumped mass rho V/8 and M = sum b b^T over the nodes, the dilatation and shear of the one-point element
+        give 8 (lambda tr M + 2 G max eig M)/rho; it reduces to 4 c^2 sum 1/l^2 for a nearly incompressible brick.
+        Gradients follow the deformation when F - 1, shape (m, 3, 3), is given.
         """
         b = self.gradients
         if gradient_of_displacement is not None:
             f = gradient_of_displacement + np.eye(3)
-            b = np.linalg.solve(np.swapaxes(f, 1, 2), b)
+            b = np.asarray(np.linalg.solve(np.swapaxes(f, 1, 2), b), dtype=np.float64)
         m = b @ np.swapaxes(b, 1, 2)
         trace = np.trace(m, axis1=1, axis2=2)
         largest = np.linalg.eigvalsh(m)[:, 2]
@@ -191,8 +191,8 @@ def _hourglass_stiffness(
 ) -> Floats:
     """Return the stiffness of each element's hourglass amplitudes.
 
-    STIFFNESS takes the instantaneous shear modulus, RELAX STIFFNESS the long-term one; ENHANCED takes the stiffness that
-    a bending mode of a brick has under full integration.
+    STIFFNESS takes the instantaneous shear modulus, RELAX STIFFNESS the long-term one; ENHANCED takes the stiffness
+    that a bending mode of a brick has under full integration.
     """
     out = np.zeros(section_of.size)
     squares = (gradients**2).sum(axis=(1, 2)) * volume
@@ -225,7 +225,7 @@ def _fill(blocks: Blocks, mesh: Mesh, corners: Floats) -> None:
     conn = np.full((order.size, 8), dummy, dtype=np.int32)
     conn[used] = mesh.connectivity[own]
     blocks.conn = np.ascontiguousarray(3 * conn.reshape(-1, LANES, 8).transpose(0, 2, 1)).astype(np.int32)
-    rows = np.zeros((order.size, kernel.GEO_ROWS))
+    rows: Floats = np.zeros((order.size, kernel.GEO_ROWS))
     rows[used, : kernel.GEO_G] = blocks.gradients[own].reshape(own.size, 24)
     offsets = np.einsum("ha,eaj->ehj", HOURGLASS_PATTERNS, corners[own])
     rows[used, kernel.GEO_G : kernel.GEO_VOLUME] = offsets.reshape(own.size, 12)
@@ -244,7 +244,7 @@ def _fill(blocks: Blocks, mesh: Mesh, corners: Floats) -> None:
 def set_masses(blocks: Blocks, mesh: Mesh) -> None:
     """Lump rho V/8 of each element on its nodes."""
     share = np.repeat(blocks.density * blocks.volume / 8.0, 8)
-    blocks.mass = np.bincount(mesh.connectivity.ravel(), weights=share, minlength=mesh.node_labels.size)
+    blocks.mass = np.bincount(mesh.connectivity.ravel(), share, mesh.node_labels.size).astype(np.float64)
 
 
 def set_bulk_viscosity(blocks: Blocks, model: Model, linear: float, quadratic: float) -> None:

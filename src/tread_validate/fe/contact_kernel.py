@@ -1,9 +1,9 @@
 """Kinematic contact of slave nodes with rigid profiles: predict, then correct.
 
-The trial position of a slave node at the end of the increment, made without contact, is compared with the master where it
-will be. A node that would be inside is put on the surface; the force that does this, m d/(dt dt_mean), is the normal
-force. The tangential force that would stop its slip over the increment is the stick force; friction takes all of it or
-the part that the law allows.
+The trial position of a slave node at the end of the increment, made without contact, is compared with the master where
+it will be. A node that would be inside is put on the surface; the force that does this, m d/(dt dt_mean), is the
+normal force. The tangential force that would stop its slip over the increment is the stick force; friction takes all
+of it or the part that the law allows.
 """
 
 from __future__ import annotations

@@ -100,6 +100,7 @@ class Simulation:
         self._rate = 0.0
         self._rate_time = 0.0
         self.increments = 0
+        self.kernel_seconds = 0.0
         self.smallest = math.inf
         self.largest = 0.0
         self.samples = Samples()
@@ -150,7 +151,7 @@ class Simulation:
 
     def displacement(self) -> Floats:
         """Return the node displacements, (n, 3)."""
-        return self.nodes.u.reshape(-1, 3)[:-1].copy()
+        return np.array(self.nodes.u.reshape(-1, 3)[:-1], dtype=np.float64)
 
     def stable_increment(self, step: Step) -> float:
         """Return the automatic increment at this moment: 2/omega, less for bulk viscosity, times the safety factor."""
@@ -201,7 +202,7 @@ class Simulation:
                 if progress is not None:
                     share = self.clock[0] / self.duration
                     spent = clock_module.monotonic() - begun
-                    progress(share, spent * (1.0 / share - 1.0))
+                    progress(share, spent * max(1.0 / share - 1.0, 0.0))
 
     def _begin(self, number: int, step: Step) -> None:
         self.clock[1] = 0.0
@@ -223,6 +224,8 @@ class Simulation:
                 data.pair.force[:] = old.pair.force
                 data.arguments.arrays["statev"][:] = old.arguments.arrays["statev"]
         set_bulk_viscosity(self.blocks, self.model, step.linear_viscosity, step.quadratic_viscosity)
+        if number == 0:
+            self._kernel(0, 1.0, np.zeros(3, dtype=np.int64))  # compile or load before the clock runs
 
     def _increment(self, step: Step, left: float) -> float:
         """Choose the increment so that the step ends exactly, and set the Prony coefficients for it."""
@@ -238,11 +241,9 @@ class Simulation:
 
     def _advance(self, count: int, dt: float) -> None:
         fault = np.zeros(3, dtype=np.int64)
-        run = advance if self.threads == 1 else advance_parallel
-        run(
-            count, dt, self.clock, self.elements, self.nodes, self.amplitudes, self.prescribed, self.loads, self.bodies,
-            tuple(data.pair for data in self.pairs), self.work, fault,
-        )  # fmt: skip
+        begun = clock_module.perf_counter()
+        self._kernel(count, dt, fault)
+        self.kernel_seconds += clock_module.perf_counter() - begun
         self.increments += count
         if fault[0] == INVERTED:
             raise EngineError(
@@ -250,6 +251,13 @@ class Simulation:
             )
         if fault[0] == BAD_FRICTION:
             raise self._friction_error(int(fault[1]), int(fault[2]))
+
+    def _kernel(self, count: int, dt: float, fault: NDArray[np.int64]) -> None:
+        run = advance if self.threads == 1 else advance_parallel
+        run(
+            count, dt, self.clock, self.elements, self.nodes, self.amplitudes, self.prescribed, self.loads, self.bodies,
+            tuple(data.pair for data in self.pairs), self.work, fault,
+        )  # fmt: skip
 
     def _friction_error(self, number: int, contact: int) -> InputError:
         data = self.pairs[number]

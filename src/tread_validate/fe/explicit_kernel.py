@@ -151,7 +151,8 @@ def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def
     total = elements.kind.size
     return block_forces(
         chunk * total // chunks, (chunk + 1) * total // chunks, dt, u, elements.conn, elements.geo, elements.state,
-        elements.hist, elements.decay, elements.gain, elements.elastic, elements.kind, elements.out, elements.work[chunk],
+        elements.hist, elements.decay, elements.gain, elements.elastic, elements.kind, elements.out,
+        elements.work[chunk],
     )  # fmt: skip
 
 
@@ -251,7 +252,7 @@ def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bod
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pairs, work):  # type: ignore[no-untyped-def]
-    """Correct the trial motion of every pair's slave nodes; return the first contact with a bad friction force or -1."""
+    """Correct the trial motion of the slave nodes; return pair and contact of the first bad friction force, or -1."""
     for number in range(len(pairs)):
         pair = pairs[number]
         b = pair.body[0]
@@ -301,7 +302,8 @@ def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pair
                 pair.tangential[i, 1] = 0.0
         bad = apply_friction(
             count, pair.touching, pair.slaves, pair.mass, pair.normal, pair.normal_force, pair.slip_direction,
-            pair.stick_force, pair.tangential, pair.carried, half_sum, dt, nodes.u, nodes.v, pair.force, pair.slipping, work,
+            pair.stick_force, pair.tangential, pair.carried, half_sum, dt, nodes.u, nodes.v, pair.force, pair.slipping,
+            work,
         )  # fmt: skip
         if bad >= 0:
             return number, bad

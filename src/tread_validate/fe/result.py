@@ -52,8 +52,9 @@ class FeResult:
     record: Mapping[str, Any]
 
     def write(self, path: Path | str) -> None:
-        """Write ``path`` (history CSV), ``<stem>_energies.csv``, ``<stem>_contact.csv``, ``<stem>_face.csv`` and, last, the
-        record ``<stem>.yaml``; each appears whole or not at all, and without the record a run is not finished.
+        """Write the history CSV, ``<stem>_energies.csv``, ``_contact.csv``, ``_face.csv``, and the record last.
+
+        Each appears whole or not at all; without the record ``<stem>.yaml`` a run is not finished.
         """
         target = Path(path)
         record_file = target.with_suffix(".yaml")

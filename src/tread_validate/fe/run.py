@@ -114,7 +114,7 @@ def _record(
         "hourglass": sorted({section.hourglass for section in model.sections}),
         "threads": threads,
         "wall_time_s": round(wall, 3),
-        "us_per_element_step": round(wall / simulation.increments / elements * 1e6, 4),
+        "us_per_element_step": round(simulation.kernel_seconds / simulation.increments / elements * 1e6, 4),
         "python": platform.python_version(),
         "numba": numba.__version__,
     }

@@ -1,7 +1,7 @@
 """VFRIC: compile the user's routine, and call it from compiled code through its documented arguments.
 
-The routine gets every argument by reference, as Fortran passes it. The engine keeps each argument in an array of its own
-and a table of their addresses; `call_vfric` calls the routine's address with that table.
+The routine gets every argument by reference, as Fortran passes it. The engine keeps each argument in an array of its
+own and a table of their addresses; `call_vfric` calls the routine's address with that table.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from llvmlite import ir
+from llvmlite import ir  # type: ignore[import-untyped]
 from numba import njit, types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
@@ -117,7 +117,7 @@ def call_vfric(typingctx, address, table):  # type: ignore[no-untyped-def]
 @njit(cache=True, nogil=True)
 def call_at(address, table):  # type: ignore[no-untyped-def]
     """Call VFRIC once with the arguments whose addresses `table` lists."""
-    call_vfric(address, table.ctypes.data)
+    call_vfric(address, table.ctypes.data)  # type: ignore[call-arg]
 
 
 @dataclass
