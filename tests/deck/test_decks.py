@@ -78,7 +78,7 @@ def test_comment_cannot_become_a_line_of_its_own() -> None:
 def test_compound_is_instantaneous_with_one_ratio_for_shear_and_bulk(
     rig_case: Case, coarse: Coarse, tmp_path: Path
 ) -> None:
-    """g_i = k_i = E_i/E_0 (12 digits), E_0 in MPa, density 1e-9 tonne/mm3, *TRS 22., 7.9241, 113.6 (four decimals)."""
+    """g_i = k_i = E_i/E_0 (10 digits), E_0 in MPa, density 1e-9 tonne/mm3, *TRS 22., 7.9241, 113.6 (four decimals)."""
     text = _back(coarse(rig_case), tmp_path)
     series = prony_series(rig_case.compound, rig_case.root)
     elastic = _one(text, "ELASTIC")
@@ -87,7 +87,7 @@ def test_compound_is_instantaneous_with_one_ratio_for_shear_and_bulk(
     assert float(_one(text, "DENSITY").data[0].fields[0]) == pytest.approx(1e-9)
     terms = np.array([[float(v) for v in line.fields] for line in _one(text, "VISCOELASTIC").data])
     np.testing.assert_array_equal(terms[:, 0], terms[:, 1])
-    np.testing.assert_allclose(terms[:, 0], series.moduli / series.instantaneous_modulus, rtol=1e-11)
+    np.testing.assert_allclose(terms[:, 0], series.moduli / series.instantaneous_modulus, rtol=1e-9)
     np.testing.assert_allclose(terms[:, 2], series.relaxation_times, rtol=1e-8)
     assert [round(float(v), 4) for v in _one(text, "TRS").data[0].fields] == [22.0, 7.9241, 113.6]
     condition = next(block for block in text.named("INITIAL CONDITIONS") if block.value("TYPE") == "TEMPERATURE")
@@ -146,13 +146,13 @@ def test_mesh_file_holds_the_nodes_and_bricks_of_the_deck(rig_case: Case, coarse
 
 
 def test_meshio_reads_nodes_and_sets_back_from_the_deck(rig_case: Case, coarse: Coarse, tmp_path: Path) -> None:
-    """An open reader finds the same coordinates (nine digits) and the same bricks."""
+    """An open reader finds the same coordinates (written to 1e-5 mm) and the same bricks."""
     case = coarse(rig_case)
     built = deck.write(case, tmp_path)
     only_mesh = built.input_text.split("*SURFACE, TYPE=ELEMENT")[0]
     (tmp_path / "mesh.inp").write_text(only_mesh)
     grid = meshio.read(tmp_path / "mesh.inp", file_format="abaqus")
-    np.testing.assert_allclose(grid.points, built.points, rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(grid.points, built.points, rtol=0.0, atol=6e-6)
     np.testing.assert_array_equal(grid.cells[0].data, built.elements)
 
 

@@ -114,32 +114,35 @@ def _arc_behind(lead: float, start: FloatArray, rows: list) -> float:
 def test_block_starts_straight_and_stress_free(belt: tuple[Case, Read]) -> None:
     """A flat block is a box of 25 x 8 mm before it is bent on to the belt: distances from its leading foot.
 
-    Tolerance 1e-6 mm: nine digits of coordinates near 160 mm.
+    Tolerance 2e-5 mm: coordinates are written to 1e-5 mm.
     """
     case, read = belt
     mount = np.array([read.points[node][:2] for node in read.sets["MOUNT"]])
     face = np.array([read.points[node][:2] for node in read.sets["FACE_NODES"]])
     lead = mount[np.argmax(mount[:, 0])]
     along = (lead - mount[np.argmin(mount[:, 0])]) / 25.0
-    assert np.hypot(*along) == pytest.approx(1.0, abs=1e-7)
+    assert np.hypot(*along) == pytest.approx(1.0, abs=1e-6)
     normal = np.array([-along[1], along[0]])
-    np.testing.assert_allclose((mount - lead) @ normal, 0.0, atol=1e-6)
-    np.testing.assert_allclose((face - lead) @ normal, -case.block.height_mm, atol=1e-6)
+    np.testing.assert_allclose((mount - lead) @ normal, 0.0, atol=2e-5)
+    np.testing.assert_allclose((face - lead) @ normal, -case.block.height_mm, atol=2e-5)
 
 
 def test_everything_starts_with_the_velocity_that_is_prescribed(belt: tuple[Case, Read]) -> None:
-    """No jump at the start: initial velocity of the mount equals the tables at 0; 1e-4 mm/s of 16,700."""
+    """No jump at the start: initial velocity of the mount equals the tables at 0; written to 1e-3 mm/s of 16,700."""
     case, read = belt
     for name, _, table_x, table_y in _rows(read):
         for node in read.sets[name]:
-            np.testing.assert_allclose(read.velocity[node][:2], [table_x[1][0], table_y[1][0]], atol=1e-4)
+            np.testing.assert_allclose(read.velocity[node][:2], [table_x[1][0], table_y[1][0]], atol=1e-3)
     road = read.sets["ROAD_REF"][0]
     assert read.velocity[road][0] == pytest.approx(1e3 * case.speed * (1.0 + (case.creep_ratio or 0.0)), rel=1e-8)
     assert read.held["ROAD_REF"] == [(1, read.velocity[road][0], None)]
 
 
 def test_block_starts_as_a_rigid_body(belt: tuple[Case, Read]) -> None:
-    """The velocity field is v + omega x r: no strain rate at the start. Residual under 1e-4 mm/s, nine digits."""
+    """The velocity field is v + omega x r: no strain rate at the start.
+
+    Residual under 2e-3 mm/s: velocities are written to 1e-3 mm/s and places to 1e-5 mm.
+    """
     _, read = belt
     nodes = read.sets["BLOCK_NODES"]
     place = np.array([read.points[node][:2] for node in nodes])
@@ -147,7 +150,7 @@ def test_block_starts_as_a_rigid_body(belt: tuple[Case, Read]) -> None:
     r = place - place.mean(axis=0)
     v = velocity - velocity.mean(axis=0)
     omega = np.sum(r[:, 0] * v[:, 1] - r[:, 1] * v[:, 0]) / np.sum(r**2)
-    np.testing.assert_allclose(v, omega * np.column_stack([-r[:, 1], r[:, 0]]), atol=1e-4)
+    np.testing.assert_allclose(v, omega * np.column_stack([-r[:, 1], r[:, 0]]), atol=2e-3)
 
 
 def test_prescribed_velocity_has_no_jumps(belt: tuple[Case, Read]) -> None:
@@ -189,7 +192,7 @@ def test_plane_lies_under_the_block_all_through_the_run(belt: tuple[Case, Read])
 def test_rig_block_turns_as_one_with_its_ring_and_touches_at_the_end_of_the_lead_in(
     mounting: str, rig_case: Case, coarse: Callable[[Case], Case], tmp_path: Path
 ) -> None:
-    """Turned by omega T about the axle, the leading face row is on the wheel (1e-5 mm), all others are off it."""
+    """Turned by omega T about the axle, the leading face row is on the wheel (2e-5 mm), all others are off it."""
     case = coarse(replace(rig_case, block=rig_case.block.model_copy(update={"mounting": mounting})))
     read = _read(case, tmp_path)
     axle = read.points[read.sets["RING_REF"][0]]
@@ -197,13 +200,13 @@ def test_rig_block_turns_as_one_with_its_ring_and_touches_at_the_end_of_the_lead
     assert omega == pytest.approx(case.speed / 0.1, rel=1e-8)
     for node in read.sets["BLOCK_NODES"]:
         r = read.points[node][:2] - axle[:2]
-        np.testing.assert_allclose(read.velocity[node][:2], omega * np.array([-r[1], r[0]]), atol=1e-4)
+        np.testing.assert_allclose(read.velocity[node][:2], omega * np.array([-r[1], r[0]]), atol=2e-3)
     angle = omega * LEAD_IN
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     place = np.array([axle[:2] + turn @ (read.points[node][:2] - axle[:2]) for node in read.sets["FACE_NODES"]])
     gap = np.hypot(place[:, 0], place[:, 1] + 300.0) - 300.0
     leading = place[:, 0] > place[:, 0].max() - 1.0
-    np.testing.assert_allclose(gap[leading], 0.0, atol=1e-5)
+    np.testing.assert_allclose(gap[leading], 0.0, atol=2e-5)
     assert gap[~leading].min() > 0.1
     assert read.held["ROAD_REF"][0][1] == pytest.approx(-case.speed / 0.3, rel=1e-8)
 

@@ -1,4 +1,8 @@
-"""The parts of a deck, each as a list of lines, in deck units."""
+"""The parts of a deck, each as a list of lines, in deck units.
+
+Coordinates are written to 10 nm, velocities to 1e-3 mm/s and tables of velocity to 1e-4 mm/s: far finer than the mesh
+needs, and coarse enough that the same study gives the same text on another machine.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +35,7 @@ def mesh(block: BlockMesh, points: FloatArray) -> list[str]:
     return [
         comment("Block: hexahedra with one integration point, nodes 1-4 of each towards the road"),
         keyword("NODE", NSET="BLOCK_NODES"),
-        table([node, *points.T], ["%d", "%.9g", "%.9g", "%.9g"]),
+        table([node, *_round(points, 5).T], ["%d", "%.5f", "%.5f", "%.5f"]),
         keyword("ELEMENT", TYPE="C3D8R", ELSET="BLOCK"),
         table([element, *(block.elements.T + 1)], ["%d"] * 9),
         keyword("NSET", NSET="MOUNT"),
@@ -59,13 +63,13 @@ def material(case: Case) -> list[str]:
         keyword("DENSITY"),
         number(compound.density_kg_m3 * DECK_DENSITY) + ",",
         keyword("ELASTIC", MODULI="INSTANTANEOUS"),
-        f"{number(series.instantaneous_modulus * DECK_STRESS, 12)}, {number(compound.poissons_ratio)}",
+        f"{number(series.instantaneous_modulus * DECK_STRESS, 10)}, {number(compound.poissons_ratio)}",
     ]
     if ratios.size:
         lines += [
             comment("g_i, k_i, tau_i: constant Poisson's ratio means one ratio for shear and bulk"),
             keyword("VISCOELASTIC", TIME="PRONY"),
-            table([ratios, ratios, series.relaxation_times], ["%.12g", "%.12g", "%.9g"]),
+            table([ratios, ratios, series.relaxation_times], ["%.10g", "%.10g", "%.9g"]),
             keyword("TRS"),
             f"{number(series.reference_temperature)}, {number(c1)}, {number(c2)}",
         ]
@@ -166,7 +170,7 @@ def initial_conditions(case: Case, block: BlockMesh, path: Path, velocities: Flo
     ]
     if case.is_rig:
         lines.append(f"RING_REF, 6, {number(_ring_rate(path))}")
-    lines.append(table([node, dof, velocities.ravel()], ["%d", "%d", "%.9g"]))
+    lines.append(table([node, dof, _round(velocities.ravel(), 3)], ["%d", "%d", "%.3f"]))
     return lines
 
 
@@ -258,6 +262,11 @@ def _plane_reach(path: Path, creep_ratio: float, points: FloatArray, pass_time: 
 
 
 def _pairs(time: FloatArray, value: FloatArray) -> list[str]:
-    """Return (time, value) pairs, four to a line; values to 1e-7 mm/s."""
-    text = [f"{t:.9f}, {v:.7f}" for t, v in zip(time.tolist(), value.tolist(), strict=True)]
+    """Return (time, value) pairs, four to a line."""
+    text = [f"{t:.9f}, {v:.4f}" for t, v in zip(time.tolist(), _round(value, 4).tolist(), strict=True)]
     return [", ".join(text[i : i + 4]) for i in range(0, len(text), 4)]
+
+
+def _round(values: FloatArray, decimals: int) -> FloatArray:
+    """Round, and make -0 a 0: what is left does not hang on the last bit of another machine's sine."""
+    return np.round(values, decimals) + 0.0
