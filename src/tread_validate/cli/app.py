@@ -37,6 +37,11 @@ VERBS = {
     "stale": "stale",
     "mesh-error": "mesh_error",
     "file-references": "file_references",
+    "fit-prony": "fit_prony",
+    "fit-friction": "fit_friction",
+    "import-belt": "import_belt",
+    "import-rig": "import_rig",
+    "synthesize": "synthesize",
     "schema": "schema",
 }
 

@@ -41,12 +41,12 @@ def kinetic_kernel(
         v = max(abs(slip_speed), parameters[8])
         u = v ** (-1.0 / parameters[3])
         above = parameters[0] * p ** (parameters[2] - 1.0) + parameters[1]
-        return above / (parameters[4] + parameters[5] * u + parameters[6] * u * u)
+        return float(above / (parameters[4] + parameters[5] * u + parameters[6] * u * u))
     i, fi = _cell(pressures, abs(pressure))
     j, fj = _cell(slip_speeds, abs(slip_speed))
     below = table[i, j] * (1.0 - fj) + table[i, j + 1] * fj
     above = table[i + 1, j] * (1.0 - fj) + table[i + 1, j + 1] * fj
-    return below * (1.0 - fi) + above * fi
+    return float(below * (1.0 - fi) + above * fi)
 
 
 @numba.njit(cache=True, error_model="numpy")

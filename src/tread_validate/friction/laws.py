@@ -158,7 +158,8 @@ def law(friction: Friction, root: Path | str | None = None) -> FrictionLaw:
             friction.least_slip_speed_mm_s * MM,
             friction.static_coefficient,
         )
-    from .files import read_huemer, read_table_law
+    from .law_file import read_huemer
+    from .table_file import read_table_law
 
     path = (Path(root) if root is not None else Path()) / friction.file
     if isinstance(friction, HuemerFile):

@@ -13,6 +13,7 @@ from ..errors import InputError
 from ..files import read_text
 from ..provenance import sha256_file
 from ..units import MM
+from .trace_import import read_raw_trace
 
 Array = NDArray[np.float64]
 
@@ -22,8 +23,12 @@ def read_belt_trace(file: Path, trace: str) -> tuple[Array, Array]:
 
     The file is YAML with the keys ``origin``, ``source``, ``pitch_mm`` and
     ``traces: {mid_top: {x_mm: [...], height_mm: [...]}, ...}``; height 0 is the level of the flat patch, positive away
-    from the road. Raises `InputError` for a missing file or key, or values that are not numbers.
+    from the road. A ``.csv`` holds raw ridge heights instead, which are levelled and smoothed on the way.
+
+    Raises `InputError` for a missing file or key, or values that are not numbers.
     """
+    if file.suffix.lower() == ".csv":
+        return read_raw_trace(file, trace)
     read_text(file)
     return _read(file, trace, sha256_file(file))
 

@@ -103,15 +103,28 @@ def level(ridges: RidgeHeights) -> tuple[LevelledTrace, ...]:
     return tuple(_levelled(ridges, name, fit, centre) for name, fit in fits.items())
 
 
+def smoothed_line(ridges: RidgeHeights, name: str) -> tuple[Array, Array]:
+    """Return place and height in m of one ridge as `level` does, without the estimates; both (n,)."""
+    _check(ridges)
+    fits = {other: fit_patch(ridges.position, y, f"{ridges.source}: {other}") for other, y in ridges.heights.items()}
+    centre = float(np.mean([0.5 * sum(fit.edges) for fit in fits.values()]))
+    return _line(fits[name], ridges.pitch, centre, f"{ridges.source}: {name}")
+
+
+def _line(fit: PatchFit, pitch: float, centre: float, where: str) -> tuple[Array, Array]:
+    first, last = (int(np.trunc((end - centre) / pitch)) for end in fit.span)
+    x = np.asarray(np.arange(first, last + 1) * pitch, dtype=np.float64)
+    height = fit.height(x + centre)
+    if min(height[0], height[-1]) < 0:
+        expected = "heights positive away from the road (--invert turns them)"
+        raise InputError(where, "a line that bends towards the road outside the patch", expected)
+    return x, height
+
+
 def _levelled(ridges: RidgeHeights, name: str, fit: PatchFit, centre: float) -> LevelledTrace:
     position, raw = ridges.position, ridges.heights[name]
     where = f"{ridges.source}: {name}"
-    pitch = ridges.pitch
-    first, last = (int(np.trunc((end - centre) / pitch)) for end in fit.span)
-    x = np.arange(first, last + 1) * pitch
-    height = fit.height(x + centre)
-    if min(height[0], height[-1]) < 0:
-        raise InputError(where, "a line that bends towards the road outside the patch", "heights away from the road")
+    x, height = _line(fit, ridges.pitch, centre, where)
     levelled = fit.level(position, raw)
     used_gap = np.isfinite(raw) & ~fit.used
     shift = 0.0

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..files import read_text, write_text
 from ..study import load_yaml
 from ..units import MM
 from .trace import LevelledTrace, RidgeHeights
+
+Array = NDArray[np.float64]
 
 
 def belt_yaml(traces: tuple[LevelledTrace, ...], origin: str, source: str, provenance: Mapping[str, str]) -> str:
@@ -51,12 +53,12 @@ def write_belt(
     write_text(path, belt_yaml(traces, origin, source, provenance))
 
 
-def read_belt(path: Path | str) -> dict[str, tuple[np.ndarray[Any, np.dtype[np.float64]], ...]]:
+def read_belt(path: Path | str) -> dict[str, tuple[Array, Array]]:
     """Return x and height in m of every trace of a belt file: ``{name: (x, height)}``, each (n,)."""
     data = load_yaml(read_text(path), path)
     if not isinstance(data, dict) or not isinstance(data.get("traces"), dict) or not data["traces"]:
         raise InputError(f"{path}: traces", "nothing", "a mapping of trace names to x_mm and height_mm")
-    found = {}
+    found: dict[str, tuple[Array, Array]] = {}
     for name, trace in data["traces"].items():
         where = f"{path}: traces.{name}"
         if not isinstance(trace, dict) or not {"x_mm", "height_mm"} <= set(trace):

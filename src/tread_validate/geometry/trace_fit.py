@@ -96,7 +96,7 @@ def _knots(reach: float, spacing: float) -> int:
 def _flank(distance: Array, knots: int, spacing: float) -> Array:
     """Return the double integrals of the hat functions at 0, spacing, 2 spacing ... at `distance` from the edge."""
     d = np.maximum(distance, 0.0)[:, None]
-    k = np.arange(knots) * spacing
+    k: Array = np.arange(knots, dtype=np.float64) * spacing
 
     def ramp(shift: Array) -> Array:
         return np.asarray(np.maximum(d - shift, 0.0) ** 3 / (6.0 * spacing), dtype=np.float64)
@@ -156,7 +156,7 @@ class _Problem:
         residual = right - matrix @ coefficients
         return coefficients, float(residual @ residual)
 
-    def best_edges(self, start: tuple[float, ...]) -> tuple[float, float]:
+    def best_edges(self, start: tuple[float, float]) -> tuple[float, float]:
         """Return the edges of least misfit: a scan of each about `start`, then Nelder and Mead's method."""
 
         def misfit(edges: Array) -> float:
@@ -166,16 +166,21 @@ class _Problem:
             found, value = self.solve((float(edges[0]), float(edges[1])))
             leading, trailing = found[2], found[2 + _knots(float(edges[0]) - first, self.spacing)]
             # a belt cannot bend towards the road where it leaves it
-            return value + CONCAVE_PENALTY * (min(leading, 0.0) ** 2 + min(trailing, 0.0) ** 2)
+            return value + CONCAVE_PENALTY * float(min(leading, 0.0) ** 2 + min(trailing, 0.0) ** 2)
 
         for side in (0, 1):
             offsets = np.zeros((len(SCAN), 2))
             offsets[:, side] = SCAN
             candidates = np.array(start) + offsets
-            start = tuple(candidates[np.argmin([misfit(edges) for edges in candidates])])
+            nearest = candidates[int(np.argmin([misfit(edges) for edges in candidates]))]
+            start = float(nearest[0]), float(nearest[1])
         simplex = np.array([start, (start[0] + 2e-3, start[1]), (start[0], start[1] - 2e-3)])
-        options = {"initial_simplex": simplex, "xatol": 1e-6, "fatol": 1e-4}
-        found = minimize(misfit, start, method="Nelder-Mead", options=options)
+        found = minimize(
+            misfit,
+            np.array(start),
+            method="Nelder-Mead",
+            options={"initial_simplex": simplex, "xatol": 1e-6, "fatol": 1e-4},
+        )
         return float(found.x[0]), float(found.x[1])
 
     def covariance(self, edges: tuple[float, float], coefficients: Array) -> Array:

@@ -55,9 +55,9 @@ def curvature(distance: Array) -> Array:
 def exact_height(x: Array, patch_length: float) -> Array:
     """Return the height in m above the patch at x in m from its middle: curvature integrated along the arc."""
     arc = np.linspace(-5e-3, 2.0 * HALF_SPAN, 100_001)
-    slope = cumulative_trapezoid(curvature(arc), arc, initial=0.0)
-    outside = arc[0] + cumulative_trapezoid(np.cos(slope), arc, initial=0.0)
-    height = cumulative_trapezoid(np.sin(slope), arc, initial=0.0)
+    slope = cumulative_trapezoid(curvature(arc), arc, initial=0)
+    outside = arc[0] + cumulative_trapezoid(np.cos(slope), arc, initial=0)
+    height = cumulative_trapezoid(np.sin(slope), arc, initial=0)
     return np.asarray(np.interp(np.abs(x) - 0.5 * patch_length, outside, height), dtype=np.float64)
 
 

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..provenance import sha256_file
-from ..study import Compound, FractionalZener, PronyCompound, PronyFile, Wlf
+from ..study import Compound, FractionalZener, PronyCompound, PronyFile, SweepFile
 from ..units import MPA
 from .collocation import relaxation_times
 from .fit import PronyFit, fit_prony
+from .material_file import read_material
 from .prony import PronySeries
+from .route import MaterialRoute, RouteSettings, read_route
 from .zener import fractional_zener
 
 Array = NDArray[np.float64]
@@ -68,10 +70,41 @@ def surrogate_modulus(compound: FractionalZener, angular_frequency: Array) -> ND
 
 
 @lru_cache(maxsize=64)
-def _from_file(compound: PronyFile, path: Path, digest: str) -> PronySeries:
-    from .material_file import read_material
+def _from_file(compound: PronyFile | SweepFile, path: Path, digest: str) -> PronySeries:
+    """Read once per content: `digest` is there for the cache."""
+    if isinstance(compound, SweepFile):
+        return rounded(sweep_route(compound, path).fit.series)
+    return read_material(path).series_at(compound.data_temperature_degC, compound.wlf, str(path))
 
-    return read_material(path).series_at(compound.data_temperature_degC, compound.wlf)
+
+def compound_route(compound: Compound, root: Path | str | None = None) -> MaterialRoute | None:
+    """Return the route from raw sweeps to the series for a ``sweeps`` compound; None for every other kind.
+
+    For a report: raw and smoothed sweeps, master curve, fit, residuals, bands and quality.
+    """
+    if not isinstance(compound, SweepFile):
+        return None
+    path = (Path(root) if root is not None else Path()) / compound.file
+    return _route(compound, path, sha256_file(path) if path.is_file() else "")
+
+
+@lru_cache(maxsize=16)
+def _route(compound: SweepFile, path: Path, digest: str) -> MaterialRoute:
+    return sweep_route(compound, path, replicates=400)
+
+
+def sweep_route(compound: SweepFile, path: Path, replicates: int = 0) -> MaterialRoute:
+    """Go from the sweeps in `path` to the series with the compound's settings."""
+    fit = compound.fit
+    settings = RouteSettings(
+        terms=fit.terms,
+        band=fit.band_rad_s,
+        low_margin=fit.low_margin,
+        high_margin=fit.high_margin,
+        times="even",
+        replicates=replicates,
+    )
+    return read_route(path, compound.wlf, compound.data_temperature_degC, settings)
 
 
 def rounded(series: PronySeries) -> PronySeries:

@@ -181,7 +181,7 @@ def fit_wlf(
         ]
     )
     variance = float(final @ final) / max(final.size - parameters - 2, 1)
-    covariance = variance * np.linalg.pinv(jacobian.T @ jacobian)
+    covariance: Array = np.asarray(variance * np.linalg.pinv(jacobian.T @ jacobian), dtype=np.float64)
     fitted = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=reference_temperature)
     return WlfFit(fitted, covariance, heights, float(np.sqrt(np.mean(final**2))))
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ..study import FractionalZener
 from .compound import surrogate_modulus
-from .sweeps import Sweep
+from .sweeps import COLUMNS, Sweep
 from .wlf import relative_shift
 
 TEMPERATURES = (5.0, 10.0, 22.0, 35.0, 45.0, 60.0)  # degC
@@ -35,3 +37,16 @@ def synthetic_sweeps(
         loss[here] *= 0.8
         found.append(Sweep(temperature, w, storage, loss, np.arange(points, dtype=np.int64) + k * points + 1))
     return tuple(found)
+
+
+def sweeps_csv(sweeps: tuple[Sweep, ...], comments: Mapping[str, str]) -> str:
+    """Return sweeps as CSV in the columns that `read_sweeps` reads; temperatures wander by less than 0.1 K."""
+    lines = [f"# {key}: {value}" for key, value in comments.items()]
+    lines.append(",".join(COLUMNS))
+    for sweep in sweeps:
+        for k in range(sweep.line.size):
+            temperature = sweep.temperature + 0.05 * np.sin(1.7 * k)
+            frequency = sweep.angular_frequency[k] / (2 * np.pi)
+            moduli = f"{sweep.storage_modulus[k]:.5e},{sweep.loss_modulus[k]:.5e}"
+            lines.append(f"{temperature:.2f},{frequency:.6g},{moduli}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,100 @@
+"""`tread-validate fit-prony`: from sweeps of a dynamic mechanical analyser to a Prony series."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal, cast
+
+import typer
+
+
+def command(
+    sweeps: Annotated[Path, typer.Argument(help="table: temperature_degC, frequency_Hz, storage_modulus_Pa, ...")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="material file (YAML) to write")] = Path(
+        "material.yaml"
+    ),
+    terms: Annotated[int, typer.Option("--terms", min=1, max=60, help="exponentials besides the long-term one")] = 24,
+    band: Annotated[
+        tuple[float, float] | None, typer.Option("--band", help="reduced frequencies to fit, rad/s: LOW HIGH")
+    ] = None,
+    reference: Annotated[float, typer.Option("--reference-degC", help="temperature of the master curve")] = 22.0,
+    c1: Annotated[float, typer.Option("--c1", help="WLF C1 at --ts")] = 8.86,
+    c2: Annotated[float, typer.Option("--c2", help="WLF C2 at --ts, K")] = 101.6,
+    ts: Annotated[float, typer.Option("--ts", help="temperature that C1 and C2 refer to, degC")] = 10.0,
+    fit_wlf: Annotated[bool, typer.Option("--fit-wlf", help="fit C1 and C2 instead (three temperatures)")] = False,
+    vertical: Annotated[bool, typer.Option("--vertical-shift", help="with --fit-wlf: a factor a sweep too")] = False,
+    times: Annotated[str, typer.Option("--times", help="relaxation times: auto, even or refined")] = "auto",
+    margins: Annotated[
+        tuple[float, float], typer.Option("--margins", help="g1 g2: how far times reach beyond the band")
+    ] = (5.0, 5.0),
+    loss_weight: Annotated[float, typer.Option("--loss-weight", min=0.0, help="weight of E'' against E'")] = 1.0,
+    prune: Annotated[
+        float | None, typer.Option("--prune", help="fewest terms with both RMS errors at most this, per cent")
+    ] = None,
+    master: Annotated[bool, typer.Option("--master", help="the table is a master curve at --reference-degC")] = False,
+    unit: Annotated[str | None, typer.Option("--modulus-unit", help="Pa, kPa, MPa or GPa, whatever the header")] = None,
+    confirm: Annotated[bool, typer.Option("--confirm-units", help="accept values out of the usual range")] = False,
+    replicates: Annotated[int, typer.Option("--resamples", min=0, max=20000, help="for the 95 % bands")] = 400,
+    origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
+    source: Annotated[str, typer.Option("--source", help="where the data come from, one line")] = "",
+    card: Annotated[Path | None, typer.Option("--abaqus-card", help="write the ABAQUS material card here too")] = None,
+    figure: Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")] = None,
+) -> None:
+    """Smooth, shift and fit sweeps; write a material file that a study reads, with its quality and uncertainty.
+
+    Example: tread-validate fit-prony reference_data/material/synthetic_sweeps.csv --band 0.25 2500 -o material.yaml
+    """
+    from typing import get_args
+
+    from ..errors import InputError
+    from ..material import RouteSettings, abaqus_card, read_route
+    from ..material.material_file import material_yaml
+    from ..material.route import Times
+    from ..study import Wlf
+    from .laboratory import checked_origin, provenance, write_all
+
+    if times not in get_args(Times):
+        raise InputError("--times", times, f"one of {', '.join(get_args(Times))}")
+    if vertical and not fit_wlf:
+        raise InputError("--vertical-shift", "given constants", "--fit-wlf with it")
+    for name, value in (("--c1", c1), ("--c2", c2), ("--margins", min(margins)), ("--prune", prune or 1.0)):
+        if not value > 0:
+            raise InputError(name, value, "a number > 0")
+    if band is not None and not 0 < band[0] < band[1]:
+        raise InputError("--band", f"{band[0]:g} {band[1]:g}", "0 < LOW < HIGH")
+    kind, told = checked_origin(sweeps, origin, source)
+    wlf = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=ts)
+    settings = RouteSettings(
+        terms=terms,
+        band=band,
+        high_margin=margins[0],
+        low_margin=margins[1],
+        times=cast(Literal["auto", "even", "refined"], times),
+        loss_weight=loss_weight,
+        largest_error=None if prune is None else prune / 100.0,
+        fit_wlf=fit_wlf,
+        vertical="fitted" if vertical else "none",
+        replicates=replicates,
+    )
+    route = read_route(sweeps, wlf, reference, settings, unit, confirm, master)
+    text = material_yaml(route.fit.series, route.wlf, kind, told, route.quality(), provenance(sweeps))
+    files = {output: text}
+    if card is not None:
+        files[card] = f"** {kind} data: {told}\n" + abaqus_card(route.fit.series, route.wlf)
+    write_all(files)
+    if figure is not None:
+        from . import laboratory_figures as draw
+
+        mark = ", synthetic" if kind == "synthetic" else ""
+        draw.save(figure, (9.4, 6.6), lambda canvas: draw.material(route, canvas, mark))
+    typer.echo(f"{kind} data: {told}")
+    for key, merit in route.quality().items():
+        typer.echo(f"{key}: {merit}")
+    if route.wlf_fit is not None:
+        typer.echo(
+            f"fitted WLF at {reference:g} degC: C1 = {route.wlf.c1:.4f} +- {1.96 * route.wlf_fit.deviations[0]:.4f}, "
+            f"C2 = {route.wlf.c2_K:.2f} +- {1.96 * route.wlf_fit.deviations[1]:.2f} K (95 %)"
+        )
+    if not route.consistency.consistent:
+        typer.echo("warning: storage and loss modulus are not consistent with each other (Kramers-Kronig)")
+    typer.echo(f"wrote {output}")

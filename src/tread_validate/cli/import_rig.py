@@ -1,0 +1,95 @@
+"""`tread-validate import-rig`: from a force record of the rig to passes and peaks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    record: Annotated[Path, typer.Argument(help="CSV or TDMS: time, forces, and a trigger or the wheel's angle")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="folder for history, passes, peaks and record")] = Path(
+        "reference_data/rig"
+    ),
+    name: Annotated[str | None, typer.Option("--name", help="of the files; the record's name if left out")] = None,
+    cutoff: Annotated[float, typer.Option("--low-pass-Hz", help="cut-off of the filter (no phase shift)")] = 1000.0,
+    channel: Annotated[
+        list[str] | None, typer.Option("--channel", help="NAME=COLUMN or NAME=Group/Channel; may be given again")
+    ] = None,
+    case: Annotated[str, typer.Option("--case", help="id of the study's case that was measured")] = "",
+    shape: Annotated[str, typer.Option("--shape", help="rectangle or parallelogram")] = "",
+    temperature: Annotated[float | None, typer.Option("--temperature-degC")] = None,
+    interference: Annotated[float | None, typer.Option("--interference-mm")] = None,
+    diameter: Annotated[float, typer.Option("--wheel-diameter-mm", help="small wheel over the tread")] = 200.0,
+    origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
+    source: Annotated[str, typer.Option("--source", help="where the data come from, one line")] = "",
+    figure: Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")] = None,
+) -> None:
+    """Cut a record into passes, remove drift and noise, and write their mean, range and peaks.
+
+    Conditions not given are read from the record's ``# key: value`` lines or TDMS properties.
+
+    Example: tread-validate import-rig reference_data/rig/synthetic_record.csv -o results/rig
+    """
+    import re
+
+    from ..errors import InputError, one_line
+    from ..reference.rig import CONDITIONS, write_rig
+    from ..reference.rig_passes import cut_passes
+    from ..reference.rig_record import read_record
+    from ..units import MM
+    from .laboratory import checked_origin, provenance
+
+    channels = {}
+    for item in channel or ():
+        key, equals, value = item.partition("=")
+        if not equals or not value.strip():
+            raise InputError("--channel", one_line(item, 60), "NAME=COLUMN, such as normal_force_N=Forces/Fz")
+        channels[key.strip()] = value.strip()
+    files_name = name if name is not None else record.stem
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,80}", files_name):
+        raise InputError("--name", one_line(files_name, 60), "letters, digits, - _ and .")
+    data = read_record(record, channels)
+    kind, told = checked_origin(record, origin or data.comments.get("origin", ""), source)
+    passes = cut_passes(data, cutoff)
+    said = {
+        "shape": shape or data.comments.get("shape", ""),
+        "temperature_degC": _given(temperature, data.comments.get("temperature_degC", "")),
+        "interference_mm": _given(interference, data.comments.get("interference_mm", "")),
+        "speed_m_s": f"{passes.rotational_speed * 0.5 * diameter * MM:.5f}",
+    }
+    missing = [key for key in CONDITIONS if not said[key]]
+    if missing:
+        option = f"--{missing[0].replace('_', '-')}"
+        raise InputError(
+            f"{record}: {missing[0]}", "nothing", f"{option}, or a line '# {missing[0]}: ...' in the record"
+        )
+    if said["shape"] not in ("rectangle", "parallelogram"):
+        raise InputError(f"{record}: shape", one_line(said["shape"], 60), "rectangle or parallelogram")
+    written = write_rig(output, files_name, passes, kind, told, case, said, provenance(record))
+    if figure is not None:
+        from . import laboratory_figures as draw
+
+        mark = ", synthetic" if kind == "synthetic" else ""
+        draw.save(figure, (11.0, 3.4), lambda canvas: draw.rig(passes, canvas, mark))
+    spread = passes.peak_normal_force
+    typer.echo(f"{kind} data: {told}")
+    typer.echo(
+        f"{passes.count} passes at {passes.speed_rpm:.2f} rpm (speed changes by {100 * passes.speed_change:.2f} %), "
+        f"low-pass {passes.cutoff:g} Hz, drift {passes.drift:.2f} N, noise {passes.noise:.3f} N"
+    )
+    typer.echo(f"peak normal force: {spread.mean:.2f} N ({spread.least:.2f} to {spread.largest:.2f})")
+    typer.echo("wrote " + ", ".join(str(path) for path in written))
+
+
+def _given(value: float | None, said: str) -> str:
+    from ..errors import InputError, one_line
+
+    if value is not None:
+        return f"{value:g}"
+    try:
+        return f"{float(said):g}" if said else ""
+    except ValueError:
+        raise InputError("conditions in the record", one_line(said, 60), "a number") from None
