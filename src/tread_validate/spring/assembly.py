@@ -8,23 +8,23 @@ few corners of the running integral I of p and the integral J of I:
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from .element import INTEGRALS
+from .jit import kernel
 
 Array = NDArray[np.float64]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _hermite(w: float, dt: float, y0: float, y1: float, s0: float, s1: float) -> float:
     """Cubic between y0 and y1 with slopes s0 and s1, at the fraction w of dt."""
     v = 1.0 - w
     return v * v * ((1.0 + 2.0 * w) * y0 + w * dt * s0) + w * w * ((1.0 + 2.0 * v) * y1 - v * dt * s1)
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def block_forces(
     record: Array, dt: float, speed: float, positions: Array, jumps: Array, kinks: Array, nodes: int
 ) -> Array:
@@ -63,7 +63,7 @@ def block_forces(
     return forces
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def add_element(record: Array, area: float, forces: Array) -> None:
     """Add one element of a given face area (m2) to the block's forces, for blocks whose elements differ."""
     for i in range(min(record.shape[0], forces.shape[0])):

@@ -23,9 +23,11 @@ from .memory import TICKS, memory_of
 Array = NDArray[np.float64]
 
 LONGEST_STEP = 20e-6
-"""Nodes are no further apart than this, s, so that a record is fine enough to compare."""
+"""Nodes are no further apart than this, s, so that a record is fine enough to compare ..."""
+ENOUGH_NODES = 1500
+"""... or than the contact time over this, where that is longer,"""
 FEWEST_NODES = 600
-"""And a pass has at least this many."""
+"""and never further than the contact time over this."""
 MARGIN = 1.1
 """An element is followed for its geometric contact time by this factor."""
 SLIP_TOLERANCE = 2e-4
@@ -190,7 +192,8 @@ def prepare(case: Case, mass_factor: float = 1.0) -> BlockPass:
 def _step(case: Case, path: Path, element_length: float) -> float:
     """Return the node step: a whole fraction of an element's transit time, so that shifts are whole steps."""
     transit = element_length / path.speed
-    longest = min(LONGEST_STEP, path.contact_duration / FEWEST_NODES)
+    contact = path.contact_duration
+    longest = min(max(LONGEST_STEP, contact / ENOUGH_NODES), contact / FEWEST_NODES)
     parts = math.ceil(1.0 / case.spring.step_fraction - 1e-9)
     return transit / (parts * math.ceil(transit / (2.0 * longest) - 1e-9))
 

@@ -13,22 +13,15 @@ import numpy as np
 
 from ..geometry import path_of
 from ..study import Case
-from ..units import MM
 from .block_pass import BlockPass, prepare
-from .coupled.body import BodySettings
 from .coupled.motion import free_shape
-from .coupled.store import condensed
-from .stiffness import StiffnessRatios, pressure_theory, shear_theory, static_ratios
-
-SOLVE = BodySettings(face_size=1.25 * MM, layers=8)
+from .coupled.store import converged_ratios
+from .stiffness import StiffnessRatios, pressure_theory, shear_theory
 
 
 def ratios(case: Case) -> StiffnessRatios:
-    """Return the stiffness ratios of the case's block from one static solve in its stress-free shape."""
-    shape = free_shape(path_of(case), case.block)
-    nu = case.compound.poissons_ratio
-    body, face, _ = condensed(case.block, shape, SOLVE, nu)
-    return static_ratios(body, face, nu, case.height)
+    """Return the stiffness ratios of the case's block from a static solve in its stress-free shape."""
+    return converged_ratios(case.block, free_shape(path_of(case), case.block), case.compound.poissons_ratio)
 
 
 def prepare_bonded(case: Case) -> BlockPass:

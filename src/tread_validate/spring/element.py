@@ -7,11 +7,11 @@ event (slip begins, slip ends, release) is narrowed down to the node step over 4
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from .inputs import Grip, Memory, Motion, Rubber
+from .jit import kernel
 from .kinematics import foot, sliding, sticking
 from .memory import LEVELS, STAGE, TICKS
 from .slip import kinetic, slip_stage
@@ -32,7 +32,7 @@ STICK, SLIP, GONE = 0, 1, 2
 MOST_EVENTS = 12
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "nsz", "contract"})
+@kernel(reorder=True)
 def _remember(weights: Array, memory: Array, rate0: float, rate1: float, increment: float, fresh: Array) -> float:
     """Write the memory after a step to `fresh` and return its sum."""
     total = 0.0
@@ -43,7 +43,7 @@ def _remember(weights: Array, memory: Array, rate0: float, rate1: float, increme
     return total
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "nsz", "contract"})
+@kernel(reorder=True)
 def _fading(weights: Array, memory: Array) -> float:
     """Return what is left of the memory after a step without input."""
     total = 0.0
@@ -52,7 +52,7 @@ def _fading(weights: Array, memory: Array) -> float:
     return total
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _accumulate(integrals: Array, dt: float, p0: float, q0: float, p1: float, q1: float, slips: float) -> None:
     """Add one sub-step with linear p and q to the integrals and their integrals."""
     start = (p0, q0, 1.0, slips)
@@ -62,7 +62,7 @@ def _accumulate(integrals: Array, dt: float, p0: float, q0: float, p1: float, q1
         integrals[j] += 0.5 * dt * (start[j] + end[j])
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def run_element(
     motion: Motion,
     rubber: Rubber,
@@ -257,7 +257,7 @@ def run_element(
     return tick
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _rest(integrals: Array, tick: int, dt: float, record: Array) -> None:
     """Fill the integrals of the nodes after the release."""
     first = tick // TICKS if tick % TICKS == 0 else tick // TICKS + 1

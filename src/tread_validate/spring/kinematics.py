@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import math
 
-import numba
-
 from .inputs import Motion
+from .jit import kernel
 
 Foot = tuple[float, float, float, float, float]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def foot(motion: Motion, arc: float) -> Foot:
     """Return x, y (m), sin and cos of theta, and d theta/dt (rad/s) of the mount line at an arc (m)."""
     if motion.code == 0:
@@ -35,7 +34,7 @@ def foot(motion: Motion, arc: float) -> Foot:
     return _table_foot(motion, arc)
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _table_foot(motion: Motion, arc: float) -> Foot:
     table, first, step = motion.table, motion.parameters[0], motion.parameters[1]
     last = first + step * (table.shape[0] - 1)
@@ -62,7 +61,7 @@ def _table_foot(motion: Motion, arc: float) -> Foot:
     return x, y, math.sin(theta), math.cos(theta), motion.speed * bend
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def sticking(motion: Motion, at: Foot, c: float) -> tuple[float, float, float, float]:
     """Return delta, lambda (m) and their rates (m/s) while C rides on the road at the place `c`."""
     x, y, sine, cosine, turn = at
@@ -78,7 +77,7 @@ def sticking(motion: Motion, at: Foot, c: float) -> tuple[float, float, float, f
     return delta, lag, d_delta, d_lag
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def sliding(motion: Motion, at: Foot, lag: float) -> tuple[float, float, float, float, float]:
     """Return what holds while C is on the road with the longitudinal spring at `lag` (m).
 

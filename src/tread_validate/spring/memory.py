@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from .inputs import Memory, Rubber
+from .jit import kernel
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ def memory_of(rubber: Rubber, step: float) -> Memory:
     return Memory(step, weights, sums)
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def moments(x: float) -> tuple[float, float, float]:
     """Return ``int_0^1 z^j exp(-x (1-z)) dz`` for j = 0, 1, 2, to round-off for every x >= 0."""
     if x < 0.5:
@@ -51,7 +51,7 @@ def moments(x: float) -> tuple[float, float, float]:
     return m0, m1, (1.0 - 2.0 * m1) / x
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _weights(moduli: Array, times: Array, step: float, levels: int, stage: float) -> tuple[Array, Array]:
     weights = np.empty((levels, 2, 4, moduli.size))
     sums = np.zeros((levels, 2, 3))

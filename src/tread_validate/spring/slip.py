@@ -2,27 +2,28 @@
 
 ``m lambda'' + F_l = sign(V1 - lambda') mu_k F_r`` (Eq. 12 of the paper) is stiff, for the friction law alone relaxes
 within a microsecond, and it must not ring. Alexander's two-stage SDIRK method (SIAM J. Numer. Anal. 14 (1977)
-1006-1021; order 2, L-stable, stiffly accurate) is used, with one scalar Newton solve a stage; the springs' memory in
-it is that of the sticking element. With m = 0 a stage is the massless balance |F_l| = mu_k F_r.
+1006-1021; order 2, L-stable, stiffly accurate) is used, with one scalar solve a stage (Newton, or bisection where it
+strays); the springs' memory in it is that of the sticking element. With m = 0 a stage is the massless balance
+|F_l| = mu_k F_r.
 """
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from ..friction import kinetic_kernel
 from .inputs import Grip, Motion, Rubber
+from .jit import kernel
 from .kinematics import Foot, sliding
 
 Array = NDArray[np.float64]
 Stage = tuple[bool, float, float, float, float, float, float, float, float]
 
-NEWTON_STEPS = 30
+NEWTON_STEPS = 50
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def kinetic(grip: Grip, pressure: float, slip_speed: float) -> float:
     """Return the kinetic friction coefficient at a pressure (Pa) and slip speed (m/s)."""
     return kinetic_kernel(
@@ -36,7 +37,7 @@ def kinetic(grip: Grip, pressure: float, slip_speed: float) -> float:
     )
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def slip_stage(
     motion: Motion,
     rubber: Rubber,
@@ -71,7 +72,8 @@ def slip_stage(
     rate = guess
     modulus = rubber.long_term_modulus
     gain = (implicit * (modulus + radial[2]) + radial[1]) / height
-    for _ in range(NEWTON_STEPS):
+    low, high = -np.inf, np.inf
+    for step in range(NEWTON_STEPS):
         lag = lag_base + implicit * rate
         delta, _c, stick_rate, slope, drift = sliding(motion, at, lag)
         u, du = height - delta, -(slope * rate + drift)
@@ -86,10 +88,20 @@ def slip_stage(
         mu_slope = (kinetic(grip, p, w + dw) - mu) / dw if w > 0.0 else 0.0
         stiffness = gain * (rubber.shear_ratio + direction * mu * slope) + mu_slope * max(p, 0.0)
         tangent = rubber.mass + implicit * stiffness
-        if not tangent > 0.0:
-            return False, rate, lag, p, q, w, du, delta, push
-        change = -residual / tangent
+        # the law's floors are kinks on which plain Newton steps can go round in circles: keep the root between bounds
+        if residual < 0.0:
+            low = rate
+        else:
+            high = rate
+        change = -residual / tangent if tangent > 0.0 else np.nan
         if abs(change) <= 1e-8 + 1e-7 * abs(w):
             return True, rate, lag, p, q, w, du, delta, push
+        bounded = high - low < np.inf
+        if not low < rate + change < high or (bounded and step > 5):
+            if not bounded:
+                return False, rate, lag, p, q, w, du, delta, push
+            change = 0.5 * (low + high) - rate
+            if abs(change) <= 1e-9:
+                return True, rate, lag, p, q, w, du, delta, push
         rate += change
     return False, rate, lag, p, q, w, du, delta, push
