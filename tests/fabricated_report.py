@@ -349,6 +349,7 @@ def _claims() -> pd.DataFrame:
         rows.append(
             {
                 "claim_id": f"c{i}",
+                "kind": "model",
                 "section": "5",
                 "statement": f"normal force about 200 N {NASTY}",
                 "quantity": "peak_normal_force",

@@ -8,8 +8,10 @@ import itertools
 import json
 import shutil
 import subprocess
+import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -134,17 +136,31 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         process.wait(timeout=20)
 
 
+@pytest.fixture(scope="session")
+def new_tab(chromium: str) -> Callable[[], AbstractContextManager[Tab]]:
+    """Return what opens a fresh tab and closes it again."""
+
+    @contextmanager
+    def opened() -> Iterator[Tab]:
+        browser = Tab(websocket.create_connection(chromium, timeout=PATIENCE, suppress_origin=True))
+        target = browser.send("Target.createTarget", url="about:blank")["targetId"]
+        address = chromium.split("/devtools/")[0] + f"/devtools/page/{target}"
+        page = Tab(websocket.create_connection(address, timeout=PATIENCE, suppress_origin=True))
+        try:
+            yield page
+        finally:
+            page.socket.close()
+            browser.send("Target.closeTarget", targetId=target)
+            browser.socket.close()
+
+    return opened
+
+
 @pytest.fixture
-def tab(chromium: str) -> Iterator[Tab]:
+def tab(new_tab: Callable[[], AbstractContextManager[Tab]]) -> Iterator[Tab]:
     """Open a fresh tab."""
-    browser = Tab(websocket.create_connection(chromium, timeout=PATIENCE, suppress_origin=True))
-    target = browser.send("Target.createTarget", url="about:blank")["targetId"]
-    address = chromium.split("/devtools/")[0] + f"/devtools/page/{target}"
-    page = Tab(websocket.create_connection(address, timeout=PATIENCE, suppress_origin=True))
-    yield page
-    page.socket.close()
-    browser.send("Target.closeTarget", targetId=target)
-    browser.socket.close()
+    with new_tab() as opened:
+        yield opened
 
 
 @pytest.fixture(scope="session")
@@ -155,8 +171,6 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    import sys
-
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)
     folder = tmp_path_factory.mktemp("report")

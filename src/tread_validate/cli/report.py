@@ -19,7 +19,10 @@ def command(
     ] = Path("reference_data"),
     decks: Annotated[Path, typer.Option(help="folder of decks, <case>/mesh.vtu")] = Path("fe_inputs"),
     out: Annotated[Path, typer.Option("-o", "--out", help="where the report goes")] = Path("reports"),
-    delta: Annotated[Path | None, typer.Option(help="delta table that `check` wrote")] = None,
+    delta: Annotated[
+        Path | None,
+        typer.Option(help="delta table that `check` wrote [default: delta.csv beside the tables, if there]"),
+    ] = None,
     ladder: Annotated[Path | None, typer.Option(help="folder of the model ladder's tables")] = None,
 ) -> None:
     """Write the report: index.html (one self-contained file), report.pdf, tables/ and figures/.
@@ -28,5 +31,6 @@ def command(
     """
     from ..report import build_report
 
+    delta = delta or (tables / "delta.csv" if (tables / "delta.csv").is_file() else None)
     build_report(study, tables, spring, references / "fe", decks, out, baseline_delta=delta, ladder_dir=ladder)
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

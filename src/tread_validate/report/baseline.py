@@ -13,7 +13,7 @@ from .tables import read_table
 def baseline_section(delta: Path | None, marks: Marks) -> tuple[Section, tuple[Tone, str] | None]:
     """Return the section, and for the summary a tone and a sentence (None where no check was made)."""
     if delta is None or not delta.is_file():
-        words = "No check against a baseline was made for this report; `tread-validate check` makes one."
+        words = "No check against a baseline was made for this report; the command “tread-validate check” makes one."
         return Section("baseline", "Change since the accepted baseline", (Paragraph(words),)), None
     frame = read_table(delta, ())
     outcome: tuple[Tone, str]

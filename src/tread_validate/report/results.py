@@ -25,7 +25,15 @@ HEADLINE = (
     ("normal_force", "iso18571_r"),
     ("tangential_force", "iso18571_r"),
 )
-CLAIM_GROUPS = ("Computed and compared", "Taken over as inputs of the study", "Not compared, and why")
+# what agreement with a published statement is worth, by the claims' `kind`
+CLAIM_GROUPS = {
+    "model": "Predicted by a model, compared with the paper",
+    "tuned": "Met because the stand-in compound was made to meet it",
+    "study": "Follows from the study's inputs alone",
+    "published": "Published numbers against each other",
+    "input": "Taken over as an input",
+    "context": "Not compared, and why",
+}
 COEFFICIENTS = {"a_v": "a_v, speed", "a_theta": "a_θ, temperature"}
 UNITS = {"s/m": "%/(m/s)", "1/degC": "%/°C"}
 
@@ -219,7 +227,7 @@ def differences_table(tables: Tables, marks: Marks) -> Table:
 def claims_table(tables: Tables, marks: Marks) -> Table:
     """Return every published statement with its computed counterpart and verdict."""
     rows: list[tuple[int, Row]] = []
-    ranks = {str(row.id): int(str(row.comparability) != "computed") for row in tables.published.itertuples(index=False)}
+    order = {kind: rank for rank, kind in enumerate(CLAIM_GROUPS)}
     for record in records(tables.claims):
         computed, published = number(record["computed"]), number(record["published"])
         unit = wording.unit(str(record["unit"]))
@@ -234,8 +242,10 @@ def claims_table(tables: Tables, marks: Marks) -> Table:
             value_cell(error, wording.error(error, str(record["error_type"]), unit)),
             verdict_cell(record["verdict"], record["note"], record["status"]),
         )
-        rank = 2 if record["status"] == "not_compared" else ranks.get(str(record["claim_id"]), 0)
-        rows.append((rank, Row(cells, marks.of(record["assumed"]), group=CLAIM_GROUPS[rank])))
+        group = "context" if record["status"] == "not_compared" else str(record["kind"])
+        rows.append(
+            (order.get(group, 0), Row(cells, marks.of(record["assumed"]), group=CLAIM_GROUPS.get(group, group)))
+        )
     rows.sort(key=lambda item: item[0])
     columns = (
         Column("Section"),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from . import wording
@@ -110,8 +109,9 @@ def _unanswered(tables: Tables, pairs: list[tuple[str, str]]) -> Verdict | None:
     texts = []
     for predicted, reference in pairs:
         row = _row(tables, (predicted, reference), "peak_normal_force", "scalar")
-        reason = str(row["note"]) if row is not None and row["note"] else "no current reference"
-        texts.append(f"{wording.source(predicted)} against {wording.source(reference)}: {reason}.")
+        reason = wording.status(str(row["status"])) if row is not None else "no row"
+        note = f" ({row['note']})" if row is not None and row["note"] else ""
+        texts.append(f"{wording.source(predicted)} against {wording.source(reference)}: {reason}{note}.")
     return Verdict("What could not be compared?", " ".join(texts), "unknown", "cannot tell", (), "results")
 
 
@@ -147,20 +147,19 @@ def _grades(errors: pd.DataFrame) -> str:
 
 
 def _claims(tables: Tables, marks: Marks) -> Verdict:
-    kinds = {str(row.id): str(row.comparability) for row in tables.published.itertuples(index=False)}
-    computed = np.array(
-        [kinds.get(str(name), "computed") == "computed" for name in tables.claims["claim_id"]], dtype=bool
-    )
-    judged = tables.claims[computed & (tables.claims["status"] != "not_compared").to_numpy()]
+    judged = tables.claims[(tables.claims["kind"] == "model") & (tables.claims["status"] != "not_compared")]
     counts = count_verdicts(judged)
     statements = wording.plural(judged["claim_id"].nunique(), "published statement")
-    text = f"{statements} with a computed counterpart, some against more than one model. {_counted(counts)}."
+    text = f"{statements} predicted here, some by more than one model. {_counted(counts)}."
+    tuned = tables.claims.loc[tables.claims["kind"] == "tuned", "claim_id"].nunique()
+    if tuned:
+        text += f" Not counted: {tuned} that the stand-in compound was made to meet."
     return Verdict(
         "Do the models reproduce what the paper states?",
         text,
         _tone(counts),
         _label(counts),
-        marks.of_column(tables.claims["assumed"]),
+        marks.of_column(judged["assumed"]),
         "claims",
     )
 

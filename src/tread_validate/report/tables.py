@@ -43,7 +43,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
         "source", "shape", "coefficient", "set", "case_id", "x", "x_unit", "residual_percent", "assumed",
     ),
     "claims": (
-        "claim_id", "section", "statement", "quantity", "unit", "published", "published_low", "published_high",
+        "claim_id", "kind", "section", "statement", "quantity", "unit", "published", "published_low", "published_high",
         "source", "computed", "error", "error_type", "verdict", "status", "note", "assumed",
     ),
     "published": ("id", "quantity", "value", "unit", "section", "statement", "comparability", "comparison"),

@@ -110,11 +110,12 @@ def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
         metric = str(record["metric"])
         if metric in PARTS:
             continue
-        unit = str(record["unit"])
-        shown_unit = "" if unit in ("", "1", "-") else f" {unit}"
+        shown_unit = f" {wording.unit(str(record['unit']))}".rstrip()
         reference, predicted = number(record["reference"]), number(record["predicted"])
         verdict, status, note = str(record["verdict"] or ""), str(record["status"]), str(record["note"] or "")
         compared = number(record["error"]) is not None
+        if not compared and reference is None and predicted is None:
+            continue
         # a run that cannot be compared at all says so once, above its values
         alike = not compared and status not in ("current", "undefined", "no_contact")
         why = "; ".join(part for part in (wording.status(status), note) if part) if alike else ""

@@ -55,19 +55,19 @@ STATUSES = {
 
 
 def source(key: str) -> str:
-    """Name a source: ``spring:paper`` becomes ``Spring model (paper)``."""
+    """Name a source: ``spring:paper`` becomes ``Spring (paper)``."""
     kind, _, name = key.partition(":")
     known = {
         "rig:published": "Rig (published)",
         "fe:published": "FE (published)",
         "rig:measured": "Rig (measured)",
-        "fe:embedded": "FE (embedded engine)",
+        "fe:embedded": "FE (embedded)",
         "fe:abaqus": "FE (ABAQUS)",
         "fe:calculix": "FE (CalculiX)",
     }
     if key in known:
         return known[key]
-    prefix = {"spring": "Spring model", "fe": "FE", "rig": "Rig"}.get(kind, kind)
+    prefix = {"spring": "Spring", "fe": "FE", "rig": "Rig"}.get(kind, kind)
     return f"{prefix} ({name})" if name else prefix
 
 

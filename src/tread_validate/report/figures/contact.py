@@ -32,7 +32,7 @@ def pressure(folder: Path, case: Case, label: str, marks: tuple[Mark, ...]) -> D
         axes.legend()
 
     caption = (
-        f"{label}, {1e3 * instant:.2f} ms after first touch. Spring model (paper), one value an element, mean over the "
+        f"{label}, {1e3 * instant:.2f} ms after first touch. Spring (paper), one value an element, mean over the "
         "block's width; shear of the road on the block, positive towards the leading edge."
     )
     return draw(

@@ -86,9 +86,11 @@ def draw(
             engine = canvas.get_layout_engine()
             assert isinstance(engine, ConstrainedLayoutEngine)
             engine.set(rect=(0, 0, 1, 0.965))
+        canvas.draw_without_rendering()
+        canvas.set_layout_engine("none")  # laid out once: doing it again for each file would cost half the time
         svg = folder / f"{key}.svg"
         with atomic_path(svg) as temporary:
-            canvas.savefig(temporary, format="svg", dpi=2 * DPI, metadata={"Date": None, "Creator": None})
+            canvas.savefig(temporary, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
         with atomic_path(folder / f"{key}.png") as temporary:
             canvas.savefig(temporary, format="png", dpi=DPI, metadata={"Software": None})
     return Drawn(Figure(key, title, caption, svg, marks, wide))

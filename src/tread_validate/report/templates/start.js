@@ -16,8 +16,8 @@ TV.number = (value) => (value === null ? "\u2013" : TV.minus(Number(value.toPrec
 TV.layout = function (extra) {
   return Object.assign({
     font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: "#1b1f24" },
-    paper_bgcolor: "#fff", plot_bgcolor: "#fff", margin: { l: 62, r: 12, t: 40, b: 44 },
-    legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" }, hoverlabel: { font: { size: 12 } },
+    paper_bgcolor: "#fff", plot_bgcolor: "#fff", margin: { l: 62, r: 12, t: 34, b: 44 },
+    legend: { orientation: "h", x: 0, y: -0.13, yanchor: "top" }, hoverlabel: { font: { size: 12 } },
   }, extra);
 };
 TV.axis = function (title, extra) {

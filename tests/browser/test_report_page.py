@@ -1,0 +1,187 @@
+"""The report's page in headless Chromium: a made-up study whose texts are full of markup."""
+
+from __future__ import annotations
+
+import io
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+FIRST = "rig-rectangle-22c-0p1mm-150rpm"
+OTHER = "rig-parallelogram-22c-0p1mm-150rpm"
+DESK, PHONE = (1400, 1000), (390, 844)
+LARGEST = 15_000_000  # bytes: what mail servers take
+
+
+@pytest.fixture
+def open_page(tab: Any, page: Path) -> Any:
+    """Open the page at desk width."""
+    tab.open(page.as_uri(), *DESK)
+    return tab
+
+
+@pytest.fixture(scope="module")
+def read_page(new_tab: Any, page: Path) -> Iterator[Any]:
+    """Open the page once for the tests that only look."""
+    with new_tab() as tab:
+        tab.open(page.as_uri(), *DESK)
+        yield tab
+
+
+def test_page_loads_without_complaints_or_network_requests(read_page: Any, page: Path) -> None:
+    """Exact: nothing in the console, and one request, the page itself (data: addresses are not requests)."""
+    assert read_page.complaints == []
+    assert [address for address in read_page.requests if not address.startswith("data:")] == [page.as_uri()]
+    assert page.stat().st_size < LARGEST
+
+
+def test_markup_in_a_study_is_shown_as_text(read_page: Any) -> None:
+    """Exact: title and notes read as written; no script of theirs ran and no element of theirs exists."""
+    title = read_page.js("document.querySelector('h1').textContent")
+    assert title.startswith("</script><script>document.title='caught'</script><img src=x onerror=alert(1)>")
+    assert "caught" not in read_page.js("document.title").split("–")[0]
+    assert read_page.js("document.querySelectorAll('img[src=\"x\"]').length") == 0
+    assert read_page.js("document.querySelectorAll('script').length") == 3
+
+
+def test_policy_stops_a_script_that_is_put_into_the_page(open_page: Any) -> None:
+    """Exact: an inline script added later does not run, because the policy names the page's own scripts by digest."""
+    insert = "const s = document.createElement('script'); s.textContent = 'window.ran = 1'; document.body.append(s);"
+    assert open_page.js(f"(() => {{ {insert} return window.ran ?? 'no'; }})()") == "no"
+
+
+def test_browser_opens_with_a_case_that_has_histories(read_page: Any) -> None:
+    """Exact: two sources times three panels are drawn, and the errors of that case stand beside them."""
+    assert read_page.js("TV.browser.current()") == FIRST
+    assert read_page.js("document.getElementById('case-plot').data.length") == 6
+    assert read_page.js("document.querySelectorAll('#case-errors tr:not(.group)').length") == 9
+
+
+def test_browser_switches_cases_by_factor(open_page: Any) -> None:
+    """Exact: choosing the other shape keeps every other factor; the address names the new case."""
+    open_page.click("#factor-block label:nth-of-type(2)")
+    open_page.until(f"TV.browser.current() === '{OTHER}'")
+    assert open_page.js("location.hash") == f"#case={OTHER}"
+    assert "parallelogram" in open_page.js("document.getElementById('case-title').textContent")
+
+
+def test_browser_goes_to_a_path_with_other_factors(open_page: Any) -> None:
+    """Exact: on the belt there is no 22 degC; the nearest belt case is shown and only its factors are offered."""
+    open_page.click("#factor-path label:nth-of-type(2)")
+    open_page.until("TV.browser.current().startsWith('belt-')")
+    assert open_page.js("document.getElementById('factor-block').hidden") is True
+    assert open_page.js("document.getElementById('factor-creep').hidden") is False
+
+
+def test_browser_is_usable_with_the_keyboard_alone(open_page: Any) -> None:
+    """Exact: Tab reaches the factor, an arrow key chooses its next level; Enter works the buttons."""
+    open_page.js("document.querySelector('#factor-path input:checked').focus()")
+    open_page.key("Tab")
+    assert open_page.js("document.activeElement.name") == "factor-block"
+    open_page.key("ArrowRight")
+    open_page.until(f"TV.browser.current() === '{OTHER}'")
+    open_page.js("document.getElementById('case-previous').focus()")
+    open_page.key("Enter")
+    open_page.until(f"TV.browser.current() !== '{OTHER}'")
+
+
+def test_stale_reference_is_said_in_words_and_not_drawn(open_page: Any) -> None:
+    """Exact: the stale FE history exists as a file but only the model's three panels are drawn."""
+    open_page.js("location.hash = 'case=rig-parallelogram-45c-0p2mm-150rpm'")
+    open_page.until("TV.browser.current() === 'rig-parallelogram-45c-0p2mm-150rpm'")
+    assert open_page.js("document.getElementById('case-plot').data.length") == 3
+    assert "older deck" in open_page.js("document.getElementById('case-status').textContent")
+
+
+def test_link_to_a_case_opens_it(tab: Any, page: Path) -> None:
+    """Exact: the page opened with a case in its address shows that case."""
+    tab.open(f"{page.as_uri()}#case={OTHER}", *DESK)
+    assert tab.js("TV.browser.current()") == OTHER
+
+
+@pytest.mark.parametrize("hash_", ["#case=no-such-case", "#case=<img src=x>", "#case="])
+def test_link_to_an_unknown_case_is_ignored(tab: Any, page: Path, hash_: str) -> None:
+    """Exact: the first case is shown and nothing is complained of."""
+    tab.open(page.as_uri() + hash_, *DESK)
+    assert tab.js("TV.browser.current()") == FIRST
+    assert tab.complaints == []
+
+
+def test_drawn_peak_is_the_histories_peak(read_page: Any) -> None:
+    """Exact to the packing: half a 20,000th of the peak; the extremes are never thinned out."""
+    drawn = read_page.js("Math.max(...document.getElementById('case-plot').data[0].y)")
+    reference = 1e6 * 1e-4 * (1.0 + 0.03 * 150.0 * 2.0 * np.pi / 60.0 * 0.1)
+    assert drawn == pytest.approx(reference, rel=1e-4)
+
+
+def test_heat_map_cell_opens_its_case(open_page: Any) -> None:
+    """Exact: a real click on a cell changes the address and the case."""
+    open_page.click(f"a.heat-cell[data-case='{OTHER}']")
+    open_page.until(f"TV.browser.current() === '{OTHER}'")
+
+
+def test_heat_map_says_where_there_is_no_value(read_page: Any) -> None:
+    """Exact: an error of -10 % is written in its cell; a missing reference is `n/a`, never a zero."""
+    cell = "document.querySelector(\"a.heat-cell[data-case='{}']\").textContent"
+    assert read_page.js(cell.format(FIRST)) == "\u221210.0\u00a0%"
+    assert read_page.js(cell.format("rig-parallelogram-45c-0p2mm-300rpm")) == "n/a"
+
+
+def test_table_sorts_by_value_both_ways(open_page: Any) -> None:
+    """Exact: computed values 203, 260 and none; what has no value stays last whichever way it is sorted."""
+    column = 5
+    rows = "document.querySelectorAll('#table-claims tbody tr:not(.group)')"
+    cells = f"[...{rows}].map(row => row.cells[{column - 1}].textContent)"
+    open_page.click(f"#table-claims th:nth-child({column}) button")
+    assert open_page.js(cells) == ["203 N", "260 N", "–"]
+    open_page.click(f"#table-claims th:nth-child({column}) button")
+    assert open_page.js(cells) == ["260 N", "203 N", "–"]
+    assert open_page.js(f"document.querySelector('#table-claims th:nth-child({column})').ariaSort") == "descending"
+
+
+def test_scatter_holds_one_point_a_compared_case(read_page: Any) -> None:
+    """Exact: 18 cases less one stale and one missing reference."""
+    points = "document.getElementById('scatter-plot').data.filter(t => t.mode === 'markers')[0].x.length"
+    assert read_page.js(points) == 16
+
+
+def test_chosen_quantity_is_drawn(open_page: Any) -> None:
+    """Exact: the third quantity of the list is negative in the tables; its size is drawn."""
+    choose = "s.value = '2'; s.dispatchEvent(new Event('change'))"
+    open_page.js(f"(() => {{ const s = document.getElementById('scatter-quantity'); {choose}; }})()")
+    assert open_page.js("Math.min(...document.getElementById('scatter-plot').data.slice(-1)[0].y) > 0") is True
+
+
+@pytest.mark.parametrize(("size", "mobile"), [(DESK, False), (PHONE, True)])
+def test_page_fits_its_window_and_is_not_blank(tab: Any, page: Path, size: tuple[int, int], mobile: bool) -> None:
+    """Exact: no sideways scrolling; the screenshot has the window's width and more than one colour in every fifth."""
+    tab.open(page.as_uri(), *size, mobile=mobile)
+    assert tab.js("document.documentElement.scrollWidth <= window.innerWidth") is True
+    picture = tab.screenshot()
+    assert struct.unpack(">II", picture[16:24]) == size
+    pixels = np.asarray(Image.open(io.BytesIO(picture)).convert("L"))
+    assert all(band.std() > 2.0 for band in np.array_split(pixels, 5))
+
+
+def test_every_number_that_rests_on_a_made_up_input_has_a_tag(read_page: Any) -> None:
+    """Exact: every tag leads to a row of the list of assumptions, and every figure of a made-up case has one."""
+    dangling = "[...document.querySelectorAll('.mark a')].filter(a => !document.querySelector(a.hash)).length"
+    assert read_page.js(dangling) == 0
+    figures = "[...document.querySelectorAll('#forces figure, #material figure')]"
+    assert read_page.js(f"{figures}.length") > 0
+    assert read_page.js(f"{figures}.filter(f => !f.querySelector('.mark')).length") == 0
+
+
+def test_every_form_control_and_picture_has_a_name(read_page: Any) -> None:
+    """Exact: inputs and selects have labels, images and charts have words that stand for them."""
+    bare = "[...document.querySelectorAll('input, select')].filter(e => !e.labels.length).length"
+    assert read_page.js(bare) == 0
+    assert read_page.js("[...document.images].filter(i => !i.alt).length") == 0
+    assert (
+        read_page.js("[...document.querySelectorAll('.plot')].filter(p => !p.getAttribute('aria-label')).length") == 0
+    )
