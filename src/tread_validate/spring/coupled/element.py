@@ -79,7 +79,7 @@ def shape_derivatives(point: Array) -> Array:
 
 
 def _jacobian(nodes: Array, point: Array) -> Array:
-    return np.einsum("mna,ni->mai", nodes, shape_derivatives(point))
+    return np.asarray(np.einsum("mna,ni->mai", nodes, shape_derivatives(point)), dtype=np.float64)
 
 
 def _isotropic(gradients: Array, lame: float, shear: float) -> Array:

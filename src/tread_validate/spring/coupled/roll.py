@@ -16,7 +16,7 @@ from ...units import MM
 from .body import Body, BodySettings
 from .march import march
 from .motion import free_shape, motion
-from .store import condensed
+from .store import condensed, stiffening
 
 Array = NDArray[np.float64]
 
@@ -34,6 +34,8 @@ class CoupledSettings:
         Travel per step while the whole face stays down.
     finite_strain : bool
         Stiffen by the a-priori factors of logarithmic strain.
+    mesh_correction : bool
+        Scale the face's stiffness to the static stiffness of the limit of fine meshes.
     tolerance : float
         Change of a node's force in the last sweep over the largest nodal force.
     """
@@ -42,6 +44,7 @@ class CoupledSettings:
     step: float = 0.5 * MM
     longest_step: float = 8.0 * MM
     finite_strain: bool = True
+    mesh_correction: bool = True
     tolerance: float = 1e-3
     most_sweeps: int = 200
 
@@ -107,11 +110,15 @@ def roll(
         raise InputError(f"case {case.case_id}: creep ratio", "none yet", "a resolved free-rolling case")
     path = path_of(case)
     shape = free_shape(path, case.block)
-    body, face, stiffening = condensed(case.block, shape, settings.body, case.compound.poissons_ratio)
+    nu = case.compound.poissons_ratio
+    body, face = condensed(case.block, shape, settings.body, nu, settings.mesh_correction)
     series = series or prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
     friction = friction or law(case.friction, case.root)
     moves = motion(path, shape, body, face, case.height, step_times(path, settings))
-    stretch = np.array([stiffening.normal, stiffening.tangential]) if settings.finite_strain else np.zeros(2)
+    stretch = np.zeros(2)
+    if settings.finite_strain:
+        grown = stiffening(case.block, shape, nu)
+        stretch[:] = grown.normal, grown.tangential
     force, displacement, state, sweeps = march(
         moves.time, moves.origin, moves.angle, moves.unloaded, body.area, face.stiffness.astype(np.float32),
         series.long_term_modulus, series.moduli, series.relaxation_times,
