@@ -151,13 +151,13 @@ def _error_width(row: dict[str, str], error: float | None) -> float:
     if row["error_type"] == "relative":
         if reference is None or reference == 0.0 or error is None:
             return tolerance[0]
-        return tolerance[0] * (1.0 + abs(error)) + tolerance[1] / abs(reference)
+        return _width((tolerance[0], tolerance[0] + tolerance[1] / abs(reference)), error)
     return _width(tolerance, reference)
 
 
 def _width(tolerance: tuple[float, float], value: float | None) -> float:
     relative, absolute = tolerance
-    return relative * abs(value or 0.0) + absolute
+    return float(f"{relative * abs(value or 0.0) + absolute:.4g}")
 
 
 def _value(text: str) -> float | None:

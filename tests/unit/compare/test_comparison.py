@@ -1,0 +1,213 @@
+"""One run against its reference: rows, verdicts, bad input."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tread_validate.cli.app import run as tread_validate
+from tread_validate.compare import compare, empty_rows, verdict
+from tread_validate.compare.align import align, window
+from tread_validate.compare.comparison import scalar_row
+from tread_validate.compare.quantities import SCALAR
+from tread_validate.errors import InputError
+from tread_validate.history import History
+
+FINITE = st.floats(-1e3, 1e3)
+SIZE = st.floats(0, 1e3)
+
+
+def half_sine(
+    peak: float = 100.0, shear: float = 30.0, start: float = 0.0, n: int = 801, duration: float = 0.01
+) -> History:
+    t = np.linspace(start, start + duration, n)
+    wave = (t - start) / duration
+    return History(t, peak * np.sin(np.pi * wave), shear * np.sin(2 * np.pi * wave), np.zeros_like(t))
+
+
+@given(FINITE, SIZE, SIZE)
+def test_a_verdict_holds_for_every_error_that_the_uncertainty_allows(
+    error: float, tolerance: float, spread: float
+) -> None:
+    """agrees: both ends of error -+ spread pass; disagrees: the nearer end (or zero, if between) fails."""
+    found = verdict(error, tolerance, spread)
+    nearest = max(0.0, abs(error) - spread)
+    if found == "agrees":
+        assert abs(error) + spread <= tolerance
+    elif found == "disagrees":
+        assert nearest > tolerance
+    else:
+        assert abs(error) + spread > tolerance
+        assert nearest <= tolerance
+
+
+def test_without_an_uncertainty_nothing_can_be_told() -> None:
+    """Neither agreement nor disagreement can be claimed of a reference whose uncertainty is not known."""
+    assert verdict(0.0, 0.1, None) == "cannot tell"
+    assert verdict(5.0, 0.1, None) == "cannot tell"
+    assert verdict(None, 0.1, 0.0) == "cannot tell"
+    assert verdict(float("nan"), 0.1, 0.0) == "cannot tell"
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(1.0, 1e4), st.floats(0.5, 2.0))
+def test_relative_errors_do_not_depend_on_the_size_of_the_forces(peak: float, factor: float) -> None:
+    """Scaling both histories leaves every relative error and score alone, to 1e-9."""
+    one = compare(half_sine(), half_sine(100.0 * factor, 30.0 * factor), uncertainty=0.01)
+    other = compare(half_sine(peak, 0.3 * peak), half_sine(peak * factor, 0.3 * peak * factor), uncertainty=0.01)
+    for a, b in zip(one, other, strict=True):
+        if a.error_type != "absolute" and a.error is not None and b.error is not None:
+            assert b.error == pytest.approx(a.error, abs=1e-7)
+        assert a.verdict == b.verdict or abs(abs(a.error or 0) - (a.tolerance or 0)) < 1e-6
+
+
+def test_a_run_agrees_with_itself() -> None:
+    """Every error 0, every score 1, every verdict agrees (mesh error 1 %), but slip, whose uncertainty is not known."""
+    rows = compare(half_sine(), half_sine(), uncertainty=0.01)
+    assert all(row.error == pytest.approx(0.0, abs=1e-7) for row in rows)
+    assert {row.quantity for row in rows if row.verdict != "agrees"} == {"slipping_share"}
+
+
+def test_a_small_tangential_reference_is_judged_in_newtons() -> None:
+    """T of 5 N under N of 100 N is below a fifth: error in N, tolerance 2 % of 100 N = 2 N; 30 N is judged relatively."""
+    rows = {row.quantity: row for row in compare(half_sine(shear=5.0), half_sine(shear=6.5), uncertainty=0.01)}
+    row = rows["peak_positive_tangential_force"]
+    assert (row.error_type, row.unit) == ("absolute", "N")
+    assert row.error == pytest.approx(1.5, abs=1e-3)
+    assert row.tolerance == pytest.approx(2.0, rel=1e-5)
+    assert row.passed
+    large = {row.quantity: row for row in compare(half_sine(shear=30.0), half_sine(shear=36.0), uncertainty=0.01)}
+    assert large["peak_positive_tangential_force"].error_type == "relative"
+    assert large["peak_positive_tangential_force"].error == pytest.approx(0.2, rel=1e-6)
+
+
+def test_both_rules_meet_where_small_begins() -> None:
+    """At a fifth of the peak normal force, 10 % of the reference is 2 % of the peak: the same newtons."""
+    quantity = SCALAR["peak_positive_tangential_force"]
+    scales = {"peak_normal_force": 100.0}
+    below = scalar_row(quantity, 19.999999, 21.0, scales, ("", "", ""), None)
+    above = scalar_row(quantity, 20.000001, 21.0, scales, ("", "", ""), None)
+    assert below.tolerance == pytest.approx((above.tolerance or 0.0) * 20.0, rel=1e-6)
+
+
+def test_the_mesh_error_of_a_reference_reaches_the_verdict() -> None:
+    """8 % high, tolerance 10 %: agrees at a mesh error of 1 %, cannot be told at 5 %; 30 % high disagrees at both."""
+    for factor, mesh, expected in (
+        (1.08, 0.01, "agrees"),
+        (1.08, 0.05, "cannot tell"),
+        (1.30, 0.01, "disagrees"),
+        (1.30, 0.05, "disagrees"),
+        (1.30, None, "cannot tell"),
+    ):
+        rows = compare(half_sine(), half_sine(100.0 * factor), uncertainty=mesh)
+        assert next(row for row in rows if row.quantity == "peak_normal_force").verdict == expected
+
+
+def test_a_mesh_error_by_quantity_is_used_where_it_is_known() -> None:
+    """A mapping gives each scalar its own; histories take that of their peaks; what is not named is not known."""
+    rows = compare(half_sine(), half_sine(), uncertainty={"peak_normal_force": 0.02})
+    known = {row.quantity for row in rows if row.reference_uncertainty is not None}
+    assert known == {"peak_normal_force", "late_sign_change", "normal_force"}
+
+
+def test_histories_of_other_lengths_and_samplings_are_compared_on_one_clock() -> None:
+    """The same pass sampled 801 and 333 times, the second record longer: the difference is that of linear
+    interpolation, (pi h)^2/8 with h = 1/332 of the pass, 1.1e-5 of the peak."""
+    fine, coarse = half_sine(), half_sine(n=333)
+    longer = History(
+        np.append(coarse.time, [0.02, 0.03]), np.append(coarse.normal_force, [0.0, 0.0]),
+        np.append(coarse.tangential_force, [0.0, 0.0]), np.zeros(coarse.time.size + 2),
+    )  # fmt: skip
+    rows = compare(fine, longer, uncertainty=0.0)
+    found = next(row for row in rows if (row.quantity, row.metric) == ("normal_force", "relative_rms"))
+    assert found.error == pytest.approx(0.0, abs=2e-5)
+
+
+def test_nothing_is_shifted() -> None:
+    """A pass that is late by a tenth stays late: the window is the union of both contacts, 1.1 passes."""
+    late = half_sine(start=0.001)
+    start, end = window(half_sine(), late)
+    assert end - start == pytest.approx(0.011, rel=1e-2)
+    pair = align(half_sine(), late, 1101)
+    assert pair.predicted_normal[0] == 0.0
+    rows = compare(half_sine(), late, uncertainty=0.0)
+    phase = next(row for row in rows if (row.quantity, row.metric) == ("normal_force", "sprague_geers_p"))
+    assert (phase.error or 0.0) > 0.05
+
+
+@pytest.mark.parametrize(
+    ("other", "match"),
+    [
+        (half_sine(start=1.0), "one clock"),
+        (half_sine(duration=1e-5, start=0.1), "one clock"),
+        (half_sine(peak=0.0), "a contact"),
+        (half_sine(peak=-5.0), "a contact"),
+        (History([0.0, 0.005, 0.01], [0.0, 50.0, 100.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]), "ends out of contact"),
+    ],
+)
+def test_histories_that_cannot_be_compared_are_refused(other: History, match: str) -> None:
+    """Other clocks, no contact, a record that ends in contact: an error that says so, never a zero."""
+    with pytest.raises(InputError, match=match):
+        compare(half_sine(), other)
+
+
+def test_a_zero_tangential_reference_gives_undefined_rows() -> None:
+    """Scores that are relative to nothing are rows without an error, with the reason in the note."""
+    rows = compare(half_sine(shear=0.0), half_sine(), uncertainty=0.01)
+    broken = [row for row in rows if row.status == "undefined"]
+    assert {row.quantity for row in broken} == {"tangential_force"}
+    assert len(broken) == 9
+    assert all(row.error is None and row.passed is None and row.note for row in broken)
+
+
+def test_empty_rows_have_the_shape_of_full_ones() -> None:
+    """The same quantities, metrics and units whether there is a reference or not."""
+    full = compare(half_sine(), half_sine(), case_id="a")
+    empty = empty_rows("a", "reference", "predicted", "missing", "no run")
+    assert [(r.quantity, r.metric, r.unit) for r in full] == [(r.quantity, r.metric, r.unit) for r in empty]
+
+
+def test_the_command_compares_two_files(tmp_path, capsys: pytest.CaptureFixture[str]) -> None:
+    """CSV and JSON on standard output or in a file; bad input ends with 2 and one line."""
+    half_sine().write_csv(tmp_path / "a.csv")
+    half_sine(110.0, 33.0).write_csv(tmp_path / "b.csv")
+    a, b = str(tmp_path / "a.csv"), str(tmp_path / "b.csv")
+    assert tread_validate(["compare", a, b, "--uncertainty", "0.01"]) == 0
+    assert "peak_normal_force,scalar,a,b,100,110,N,0.1,relative" in capsys.readouterr().out
+    assert tread_validate(["compare", a, b, "--json", "-o", str(tmp_path / "c.json")]) == 0
+    assert '"sprague_geers_m"' in (tmp_path / "c.json").read_text(encoding="utf-8")
+    half_sine(start=1.0).write_csv(tmp_path / "late.csv")
+    assert tread_validate(["compare", a, str(tmp_path / "late.csv")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+PEAKS = "shape,temperature_degC,interference_mm,speed_m_s,peak_normal_force_N\n"
+
+
+def test_the_command_regresses_a_table_of_peaks(tmp_path, capsys: pytest.CaptureFixture[str]) -> None:
+    """F = 50 (1 + 0.04 v): a_v is 0.04."""
+    rows = "".join(f"rectangle,22,0.2,{v},{50 * (1 + 0.04 * v)}\n" for v in (1.0, 2.0, 4.0))
+    (tmp_path / "peaks.csv").write_text(PEAKS + rows, encoding="utf-8")
+    assert tread_validate(["regress", str(tmp_path / "peaks.csv")]) == 0
+    assert ",rectangle,a_v,22 degC 0.2 mm,0.04,s/m" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "match"),
+    [
+        ("shape,speed_m_s\n", "column temperature_degC"),
+        (PEAKS, "at least one run"),
+        (PEAKS + "rectangle,22,0.2,1\n", "cells"),
+        (PEAKS + "rectangle,22,0.2,fast,3\n", "finite number"),
+        (PEAKS + "rectangle,22,0.2,1,-3\n", "a force > 0"),
+        (PEAKS + "rectangle,22,0.2,1,3\nrectangle,22,0.2,1,4\n", "one row for each"),
+        (PEAKS + "rectangle,22,0.2,1,nan\n", "finite number"),
+    ],
+)
+def test_a_wrong_table_of_peaks_is_refused(text: str, match: str, tmp_path, capsys: pytest.CaptureFixture[str]) -> None:
+    """One line, exit code 2."""
+    (tmp_path / "peaks.csv").write_text(text, encoding="utf-8")
+    assert tread_validate(["regress", str(tmp_path / "peaks.csv")]) == 2
+    assert match in capsys.readouterr().err
