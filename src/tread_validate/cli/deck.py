@@ -15,6 +15,12 @@ def command(
     output: Annotated[Path, typer.Option("-o", "--output", help="folder; each case gets one of its own in it")] = Path(
         "fe_inputs"
     ),
+    element_size: Annotated[
+        float | None, typer.Option("--element-size", help="mm, instead of the study's: for a mesh study")
+    ] = None,
+    layers: Annotated[
+        int | None, typer.Option("--layers", help="elements over the height, instead of the study's")
+    ] = None,
 ) -> None:
     """Write the deck of one case, or of all: ID.inp, ID-constant-friction.inp, vfric.f and mesh.vtu.
 
@@ -22,7 +28,7 @@ def command(
     """
     from .. import deck
     from ..errors import InputError
-    from ..study import load_study
+    from ..study import load_study, with_mesh
 
     if (case is None) == (not every):
         raise InputError("deck", "both --case and --all" if every else "neither --case nor --all", "one of the two")
@@ -32,7 +38,8 @@ def command(
         from ..spring import resolve_creep
 
         cases = resolve_creep(cases)
-    for one in cases:
+    mesh = {"element_size_mm": element_size, "layers": layers}
+    for one in (with_mesh(one, {key: value for key, value in mesh.items() if value is not None}) for one in cases):
         written = deck.write(one, output / one.case_id)
         typer.echo(
             f"{output / one.case_id}: {written.elements.shape[0]} elements, pass {1e3 * written.pass_time:.4g} ms"

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from pydantic import ValidationError
+
+from ..errors import InputError
 from ..units import MM, PERCENT
 from .models import Block, Compound, DeckSettings, Friction, MeasuredBelt, Rig, Sourced, SpringSettings, Wheel
 
@@ -129,3 +133,15 @@ class Case:
             "measured_profile": isinstance(self.path, MeasuredBelt),
             "assumed": "; ".join(self.assumed()),
         }
+
+
+def with_mesh(case: Case, settings: Mapping[str, object]) -> Case:
+    """Return the case with some deck settings changed (``element_size_mm``, ``layers``); they are validated anew."""
+    if not settings:
+        return case
+    try:
+        deck = DeckSettings.model_validate({**case.deck.model_dump(), **settings})
+    except ValidationError as error:
+        fault = error.errors(include_url=False)[0]
+        raise InputError(f"deck.{fault['loc'][0]}", fault["input"], fault["msg"]) from None
+    return replace(case, deck=deck)
