@@ -30,5 +30,6 @@ from .models import (
 __all__ = [
     "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FractionalZener", "Friction",
     "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "PronyCompound", "PronyFile", "PronyTerm",
-    "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf", "load_study", "load_yaml", "with_mesh",
+    "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf", "load_study", "load_yaml",
+    "with_mesh",
 ]  # fmt: skip

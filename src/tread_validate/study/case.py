@@ -143,5 +143,7 @@ def with_mesh(case: Case, settings: Mapping[str, object]) -> Case:
         deck = DeckSettings.model_validate({**case.deck.model_dump(), **settings})
     except ValidationError as error:
         fault = error.errors(include_url=False)[0]
-        raise InputError(f"deck.{fault['loc'][0]}", fault["input"], fault["msg"]) from None
+        raise InputError(
+            f"deck.{fault['loc'][0]}", fault["input"], fault["msg"].removeprefix("Input should be ")
+        ) from None
     return replace(case, deck=deck)
