@@ -49,6 +49,8 @@ def peak_row(case: Case, run: SourceRun) -> dict[str, Any]:
     """Return the scalars of one run, empty where it has none."""
     values = run.scalars.as_dict() if run.scalars is not None else {}
     peak = values.get("peak_normal_force")
+    if run.source.startswith("rig:"):
+        values.pop("slipping_share", None)  # not measured
     return {
         "source": run.source,
         "case_id": case.case_id,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -20,7 +20,7 @@ from .differences import Difference, differences
 from .ensemble import Ensemble, summarise
 from .provenance import assumed_inputs, provenance
 from .regression import EXCLUDED_INTERFERENCES, Coefficient, Residual
-from .rig_peaks import RigPeak, means, rig_rows
+from .rig_peaks import MEASURED, measured_means, rig_peaks, rig_rows, rig_runs
 from .rows import METRIC_COLUMNS, MetricRow
 from .runs import Runs, engines, fe_runs, spring_runs
 from .sensitivity import Sensitivity, sensitivity
@@ -92,13 +92,15 @@ def compare_study(
     for engine in engines(reference_dir, loaded.model.engine):
         runs |= fe_runs(cases, reference_dir, engine, decks_dir)
         references.append(f"fe:{engine}")
-    rig: Mapping[str, RigPeak] = {}
+    rig = rig_peaks(reference_dir, cases)
+    runs |= rig_runs(rig)
     rows = _metric_rows(cases, runs, sources, references)
     rows += rig_rows(cases, runs, [*sources, *references], rig)
     published = {item.id: item for item in load_published(reference_dir)}
     coefficients = list(published_coefficients(published))
     residuals: list[Residual] = []
-    for source in (*references, *sources):
+    measured = [MEASURED] if measured_means(rig) else []
+    for source in (*measured, *references, *sources):
         regression = computed_regression(cases, runs, source, exclude)
         coefficients += regression.coefficients
         residuals += regression.residuals
@@ -109,7 +111,7 @@ def compare_study(
         published=published,
         coefficients=tuple(coefficients),
         free_rolling_creep=_free_rolling_creep(spring_dir, variants),
-        rig_peaks=means(rig),
+        rig_peaks=measured_means(rig),
     )
     return Comparison(
         study=loaded,

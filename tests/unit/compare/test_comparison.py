@@ -71,7 +71,7 @@ def test_a_run_agrees_with_itself() -> None:
 
 
 def test_a_small_tangential_reference_is_judged_in_newtons() -> None:
-    """T of 5 N under N of 100 N is below a fifth: error in N, tolerance 2 % of 100 N = 2 N; 30 N is judged relatively."""
+    """T of 5 N under N of 100 N is below a fifth: error in N, tolerance 2 % of 100 N = 2 N; 30 N is relative."""
     rows = {row.quantity: row for row in compare(half_sine(shear=5.0), half_sine(shear=6.5), uncertainty=0.01)}
     row = rows["peak_positive_tangential_force"]
     assert (row.error_type, row.unit) == ("absolute", "N")
