@@ -172,7 +172,7 @@ def _slopes(tables: Tables, marks: Marks) -> Verdict:
         for record in records(frame[frame["coefficient"] == coefficient]):
             value = number(record["value"])
             if value is not None:
-                shown = wording.percent(value, 1 if coefficient == "a_v" else 2).removesuffix(" %")
+                shown = wording.percent(value, 1 if coefficient == "a_v" else 2).removesuffix("%").strip()
                 values.setdefault(str(record["source"]), []).append(shown)
         own = [f"{wording.source(source)} {' and '.join(found)}" for source, found in values.items()]
         texts.append(f"{name} ({' and '.join(dict.fromkeys(map(str, frame['shape'])))}): {'; '.join(own)}.")

@@ -43,6 +43,7 @@ GROUPS = {
     "published": "rig, 0.1 and 0.2 mm",
 }
 TONES: dict[str, Tone] = {"agrees": "good", "disagrees": "bad", "cannot tell": "unknown"}
+NBSP = "\u00a0"
 SYMBOLS = {"agrees": "✓", "disagrees": "✗", "cannot tell": "?"}
 STATUSES = {
     "current": "current",
@@ -136,9 +137,9 @@ def percent(value: float | None, decimals: int = 1, sign: bool = False) -> str:
         return "–"
     text = f"{100.0 * value:.{decimals}f}"
     if float(text) == 0.0:
-        return f"{text.removeprefix('-')} %"
+        return f"{text.removeprefix('-')}{NBSP}%"
     text = signed(text) if sign else text
-    return text.replace("-", "−") + " %"
+    return text.replace("-", "−") + f"{NBSP}%"
 
 
 def error(value: float | None, error_type: str, unit: str = "", metric: str = "scalar") -> str:

@@ -1,0 +1,136 @@
+"""What the report says, from the made-up tables."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pandas as pd
+import pytest
+
+from tread_validate.report.baseline import baseline_section
+from tread_validate.report.cases import case_views, facets, factor_levels
+from tread_validate.report.content import Table
+from tread_validate.report.histories import HistoryStore, load_histories
+from tread_validate.report.marks import Marks
+from tread_validate.report.results import claims_table, table1
+from tread_validate.report.summary import summary
+from tread_validate.report.tables import Tables, read_tables
+
+
+@pytest.fixture(scope="module")
+def tables(inputs: Any) -> Tables:
+    """Read the made-up tables."""
+    return read_tables(inputs.tables)
+
+
+@pytest.fixture
+def marks(tables: Tables) -> Marks:
+    """Code the assumptions."""
+    return Marks(tables.assumed)
+
+
+def test_every_case_is_in_one_cell_of_one_grid(tables: Tables) -> None:
+    """Exact: the heat maps' grids hold each case once and nothing else."""
+    views = case_views(tables.cases)
+    cells = [view.case_id for facet in facets(views) for _, row in facet.rows for view in row if view is not None]
+    assert Counter(cells) == Counter(tables.cases["case_id"])
+
+
+def test_only_factors_that_vary_can_be_chosen(tables: Tables) -> None:
+    """Exact: one compound and one friction law are no choice; the path always is."""
+    levels = {factor["key"]: factor["levels"] for factor in factor_levels(case_views(tables.cases))}
+    assert set(levels) == {"path", "block", "temperature_degC", "interference_mm", "speed", "creep"}
+    assert levels["speed"] == ["150 rpm", "300 rpm", "16.7 m/s"]
+    assert levels["creep"] == ["0 %", "free rolling", "0.3 %"]
+
+
+def test_stale_reference_is_not_loaded(tables: Tables, inputs: Any, made_up: ModuleType) -> None:
+    """Exact: its file exists, but its force belongs to another deck."""
+    store = HistoryStore(inputs.spring, inputs.reference)
+    assert store.path("fe:embedded", made_up.STALE).is_file()
+    assert set(load_histories(tables, store)[made_up.STALE]) == {"spring:paper"}
+
+
+def test_summary_counts_verdicts_and_gives_bias_and_scatter(tables: Tables, marks: Marks) -> None:
+    """Exact: 16 of 18 cases compared, each 10 % low; two cannot be told."""
+    first = summary(tables, marks, None).items[0]
+    assert "mean |error| 10.0\u00a0%" in first.answer
+    assert "bias δ = 0.900" in first.answer
+    assert "0 agree within uncertainty, 16 disagree, 2 cannot be told" in first.answer
+    assert first.tone == "bad"
+    assert [mark.code for mark in first.marks] == ["A1"]
+
+
+def test_summary_does_not_claim_agreement_where_nothing_was_compared(inputs: Any, marks: Marks) -> None:
+    """Exact: without a single current reference the answer is `cannot tell`, never `agrees` and never a zero."""
+    empty = read_tables(inputs.tables)
+    for name in ("mean_abs_error", "largest_abs_error", "bias", "model_scatter"):
+        empty.ensemble[name] = float("nan")
+    empty.ensemble["compared"] = 0
+    empty.ensemble["status"] = "missing"
+    empty.errors["verdict"] = "cannot tell"
+    first = summary(empty, marks, None).items[0]
+    assert first.label == "cannot tell"
+    assert "no reference run yet" in first.answer
+    assert "0.0" not in first.answer
+
+
+def test_table_1_has_a_column_for_every_source(tables: Tables, marks: Marks) -> None:
+    """Exact: published columns first and untagged; a_v of 3 % times the source's factor, in per cent per m/s."""
+    table = table1(tables, marks)
+    titles = [column.title for column in table.columns[2:]]
+    assert titles == ["Rig (published)", "FE (published)", "FE (embedded)", "Spring (paper)"]
+    assert [bool(column.marks) for column in table.columns[2:]] == [False, False, True, True]
+    assert [cell.text for cell in table.rows[0].cells[2:]] == [
+        "3.60 %/(m/s)",
+        "3.30 %/(m/s)",
+        "3.00 %/(m/s)",
+        "2.70 %/(m/s)",
+    ]
+    assert table.rows[0].cells[4].note == "sd 0.60; 95 % CI 1.80 to 4.20"
+
+
+def test_claim_without_a_value_shows_a_dash_and_its_reason(tables: Tables, marks: Marks) -> None:
+    """Exact: the third claim has no run behind it."""
+    row = claims_table(tables, marks).rows[2]
+    assert [row.cells[i].text for i in (4, 5, 6)] == ["–", "–", "? cannot tell"]
+    assert row.cells[6].note == "no reference run yet"
+
+
+def test_report_without_a_check_says_so(marks: Marks) -> None:
+    """Exact: no delta table, no verdict in the summary."""
+    section, moved = baseline_section(None, marks)
+    assert moved is None
+    assert "No check against a baseline was made" in section.items[0].text  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(("passed", "tone"), [("true", "good"), ("false", "bad")])
+def test_delta_to_the_baseline_is_counted_and_shown(tmp_path: Path, marks: Marks, passed: str, tone: str) -> None:
+    """Exact: one row of the delta table; within tolerance it is good, beyond it bad."""
+    path = tmp_path / "delta.csv"
+    row = {
+        "outcome": "moved",
+        "case_id": "c",
+        "quantity": "peak_normal_force",
+        "baseline": 1.0,
+        "current": 1.1,
+        "passed": passed,
+    }
+    pd.DataFrame([row]).to_csv(path, index=False)
+    section, moved = baseline_section(path, marks)
+    assert moved is not None
+    assert moved[0] == tone
+    table = section.items[1]
+    assert isinstance(table, Table)
+    assert [cell.text for cell in table.rows[0].cells] == ["moved", "c", "peak_normal_force", "1.000", "1.100", passed]
+
+
+def test_baseline_with_no_row_moved_is_good(tmp_path: Path, marks: Marks) -> None:
+    """Exact: a delta table with only its header says that nothing moved."""
+    path = tmp_path / "delta.csv"
+    path.write_text("outcome,case_id,passed\n", encoding="utf-8")
+    _, moved = baseline_section(path, marks)
+    assert moved == ("good", "No row differs from the baseline beyond its tolerance.")

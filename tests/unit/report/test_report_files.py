@@ -1,0 +1,128 @@
+"""The report's files: whole, self-contained, deterministic, and blind to markup in a study."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tread_validate.cli.app import run
+from tread_validate.errors import InputError
+from tread_validate.report import build_report
+from tread_validate.report.html import embed_json
+
+
+def test_every_promised_file_is_there(built: Path, inputs: Any) -> None:
+    """Exact: page, PDF, a copy of every table, and every figure as SVG and PNG."""
+    assert (built / "index.html").read_text(encoding="utf-8").startswith("<!doctype html>")
+    assert (built / "report.pdf").read_bytes().startswith(b"%PDF-")
+    copied = {path.name: path.read_bytes() for path in (built / "tables").iterdir()}
+    assert copied == {path.name: path.read_bytes() for path in inputs.tables.glob("*.csv")}
+    drawn = {path.suffix: set() for path in (built / "figures").iterdir()}
+    for path in (built / "figures").iterdir():
+        drawn[path.suffix].add(path.stem)
+    assert drawn[".svg"] == drawn[".png"]
+    assert {"moduli-soft", "friction-dry", "belt-heights", "rig-sketch", "peaks-rectangle-22c"} <= drawn[".svg"]
+
+
+def test_identical_inputs_give_identical_files(built: Path, inputs: Any, tmp_path: Path) -> None:
+    """Exact: page, PDF and figures byte for byte; nothing of the time of making is in them."""
+    build_report(inputs.study, inputs.tables, inputs.spring, inputs.reference, inputs.decks, tmp_path)
+    first = {path.relative_to(built): path.read_bytes() for path in built.rglob("*") if path.is_file()}
+    second = {path.relative_to(tmp_path): path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    assert [name for name in first if first[name] != second.get(name)] == []
+    assert first.keys() == second.keys()
+
+
+def test_page_asks_for_nothing_outside_itself(built: Path) -> None:
+    """Exact: every src and href is a fragment or a data address, and the policy allows no connection."""
+    page = (built / "index.html").read_text(encoding="utf-8")
+    outside_plotly = re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)
+    addresses = re.findall(r"(?:src|href)=\"([^\"]*)\"", outside_plotly)
+    assert addresses
+    assert [address for address in addresses if not address.startswith(("#", "data:"))] == []
+    assert "default-src 'none'" in html.unescape(page)
+    assert "connect-src" not in page.split("</head>")[0]
+
+
+def test_policy_names_the_scripts_of_the_page(built: Path) -> None:
+    """Exact: the SHA-256 of each script is in the policy, and no other is."""
+    page = (built / "index.html").read_text(encoding="utf-8")
+    scripts = re.findall(r"<script>(.*?)</script>", page, flags=re.DOTALL)
+    digests = {base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts}
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)
+    assert policy is not None
+    assert set(re.findall(r"sha256-([A-Za-z0-9+/=]+)", html.unescape(policy.group(1)))) == digests
+    assert len(scripts) == 2
+
+
+@given(st.recursive(st.text() | st.integers(), lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner)))
+def test_embedded_json_cannot_leave_its_script_element(data: Any) -> None:
+    """Exact for any text: no sign that HTML reads is left, and the parsed data are the same."""
+    text = str(embed_json(data))
+    assert not set("<>&\u2028\u2029") & set(text)
+    assert json.loads(text) == data
+
+
+def test_pdf_shows_markup_as_text(built: Path, made_up: ModuleType) -> None:
+    """Exact but for line breaks: the study's title reads in the PDF as it was written, typst's own signs included."""
+    assert shutil.which("pdftotext") is not None, "this test needs pdftotext: apt-get install poppler-utils"
+    done = subprocess.run(
+        ["pdftotext", str(built / "report.pdf"), "-"], check=True, capture_output=True, text=True, timeout=60
+    )
+    text = "".join(done.stdout.split())
+    assert "".join(made_up.NASTY.split()) in text
+    assert "Howfarcanthemodelbetrusted?" in text
+
+
+def test_report_says_what_is_missing_or_stale_in_words(built: Path) -> None:
+    """Exact: 18 cases, one without a reference run and one whose run belongs to an older deck."""
+    page = (built / "index.html").read_text(encoding="utf-8")
+    assert "16 of 18 cases have a current run" in page
+    assert "1 – no reference run yet; 1 – reference run belongs to an older deck" in page
+
+
+def test_mesh_that_is_not_there_is_said_and_not_drawn(built: Path) -> None:
+    """Exact: no deck was written, so the page says so by name."""
+    page = (built / "index.html").read_text(encoding="utf-8")
+    assert "no mesh at rig-rectangle-22c-0p1mm-150rpm/mesh.vtu" in page
+
+
+@pytest.mark.parametrize("name", ["cases", "errors", "claims", "assumed"])
+def test_missing_table_is_named(inputs: Any, tmp_path: Path, name: str) -> None:
+    """Exact: one line with the file; nothing is written."""
+    broken = shutil.copytree(inputs.tables, tmp_path / "tables")
+    (broken / f"{name}.csv").unlink()
+    with pytest.raises(InputError, match=rf"{name}\.csv: got no such file"):
+        build_report(inputs.study, broken, inputs.spring, inputs.reference, inputs.decks, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_table_without_a_column_is_wrong_input(inputs: Any, tmp_path: Path) -> None:
+    """Exact: exit code 2, file and column in one line."""
+    broken = shutil.copytree(inputs.tables, tmp_path / "tables")
+    text = (broken / "errors.csv").read_text(encoding="utf-8")
+    (broken / "errors.csv").write_text(text.replace("verdict", "vredict", 1), encoding="utf-8")
+    with pytest.raises(InputError, match=r"errors\.csv:1: got no column verdict"):
+        build_report(inputs.study, broken, inputs.spring, inputs.reference, inputs.decks, tmp_path / "out")
+
+
+def test_verb_writes_the_report_and_names_its_files(
+    inputs: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exact: exit code 0 and two lines, page and PDF."""
+    options = ["--tables", str(inputs.tables), "--spring", str(inputs.spring), "--references", str(tmp_path)]
+    code = run(["report", str(inputs.study), *options, "--decks", str(inputs.decks), "-o", str(tmp_path / "out")])
+    assert code == 0
+    assert capsys.readouterr().out.split() == [str(tmp_path / "out" / name) for name in ("index.html", "report.pdf")]
