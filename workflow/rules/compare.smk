@@ -6,6 +6,11 @@ REFERENCE_FILES = sorted(
 )
 
 
+# Only a baseline of this study says anything about its tables; without one nothing is checked.
+BASELINE = Path(REPORTS) / "baseline" / "baseline.yaml"
+CHECKED = BASELINE.is_file() and f"study: {study.model.name}\n" in BASELINE.read_text()
+
+
 rule tables:
     input:
         study=STUDY,
@@ -36,3 +41,27 @@ rule tables:
     shell:
         "tread-validate tables {input.study} --spring {params.spring} --references {params.references} "
         "--decks {params.decks} -o {params.folder} > {log} 2>&1"
+
+
+rule check:
+    input:
+        errors=rules.tables.output.errors,
+        baseline=BASELINE,
+    output:
+        delta=f"{RESULTS}/check/delta.csv",
+        markdown=f"{RESULTS}/check/delta.md",
+        junit=f"{RESULTS}/check/junit.xml",
+    log:
+        "logs/check.log",
+    benchmark:
+        "logs/benchmarks/check.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        tables=lambda wildcards, input: Path(input.errors).parent,
+        folder=lambda wildcards, input: Path(input.baseline).parent,
+    message:
+        "Measuring the distance to the accepted baseline"
+    shell:
+        "tread-validate check {params.tables} --baseline {params.folder} -o {output.delta} "
+        "--markdown {output.markdown} --junit {output.junit} --report-only > {log} 2>&1"

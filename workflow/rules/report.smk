@@ -3,6 +3,7 @@ rule report:
     input:
         study=STUDY,
         errors=rules.tables.output.errors,
+        delta=rules.check.output.delta if CHECKED else [],
         histories=rules.tables.input.histories,
         decks=rules.decks.output.mesh,
         package=rules.references.input.package,
@@ -25,9 +26,10 @@ rule report:
         spring=lambda wildcards, input: Path(input.histories[0]).parents[1],
         references=lambda wildcards, input: Path(input.package).parent,
         decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        delta=lambda wildcards, input: f"--delta {input.delta}" if input.delta else "",
         folder=lambda wildcards, output: Path(output.page).parent,
     message:
         "Writing the report"
     shell:
         "tread-validate report {input.study} --tables {params.tables} --spring {params.spring} "
-        "--references {params.references} --decks {params.decks} -o {params.folder} > {log} 2>&1"
+        "--references {params.references} --decks {params.decks} {params.delta} -o {params.folder} > {log} 2>&1"
