@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from tread_validate import deck
 from tread_validate.deck.mesh import BlockMesh, block_mesh, layer_fractions
+from tread_validate.errors import InputError
 from tread_validate.study import Block, Case, DeckSettings, Sipe
 
 FloatArray = NDArray[np.float64]
@@ -122,3 +123,8 @@ def test_parallelogram_touches_with_the_corner_on_the_side_its_skew_points_to(
     assert mesh.span == pytest.approx(25.0 + 20.0 * math.tan(math.radians(30.0)), rel=1e-12)
     mirrored = block_mesh(case.block.model_copy(update={"skew_deg": -30.0}), coarse(case).deck)
     assert mirrored.z[np.argmin(mirrored.s)] == 10.0
+
+
+def test_mesh_that_would_fill_the_memory_is_refused(cases: tuple[Case, ...]) -> None:
+    with pytest.raises(InputError, match="element_size_mm"):
+        block_mesh(cases[0].block, DeckSettings(element_size_mm=0.01))

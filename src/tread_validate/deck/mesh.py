@@ -14,10 +14,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import InputError
 from ..study import Block, DeckSettings
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+MOST_ELEMENTS = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -60,8 +63,13 @@ def block_mesh(block: Block, settings: DeckSettings) -> BlockMesh:
     """Mesh `block` with elements of `settings.element_size_mm`, graded towards the contact face.
 
     Each stretch of rubber between sipes gets a whole number of columns of its own. Cached: the cases of a study
-    share a few meshes.
+    share a few meshes. Raises `InputError` for more than two million elements.
     """
+    size = settings.element_size_mm
+    rows = sum(_parts(end - begin, size) for begin, end in rubber_stretches(block))
+    count = rows * _parts(block.width_mm, size) * settings.layers
+    if count > MOST_ELEMENTS:
+        raise InputError("deck.element_size_mm", f"{size:g} ({count} elements)", f"at most {MOST_ELEMENTS} elements")
     heights = layer_fractions(settings.layers, settings.refinement)
     across = np.linspace(-0.5, 0.5, _parts(block.width_mm, settings.element_size_mm) + 1) * block.width_mm
     node_parts: list[tuple[FloatArray, FloatArray, FloatArray]] = []

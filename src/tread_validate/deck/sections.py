@@ -23,7 +23,7 @@ from .placement import LEAD_IN, MountTable
 
 FloatArray = NDArray[np.float64]
 
-ROAD_NODE, RING_NODE = 900001, 900002
+ROAD_NODE, RING_NODE = 9000001, 9000002  # beyond any block's nodes (see mesh.MOST_ELEMENTS)
 ROAD_MARGIN = 50.0  # mm of plane beyond the block's reach
 ENERGIES = "ALLIE, ALLKE, ALLAE, ALLVD, ALLCD, ALLSE, ALLFD, ALLWK, ETOTAL"
 
