@@ -83,7 +83,9 @@ def _power_laws(speeds: Array, decades: float, span: float) -> list[dict[str, An
 
     for_v = float(brentq(lambda m: pair(m)[0] - A_V, 1e-6, 0.8))
     for_theta = float(brentq(lambda m: pair(m)[1] - A_THETA, 1e-6, 0.8))
-    note = f"E ~ w^m; {span:g} degC are {decades:.3f} decades of rate, the speeds {np.log10(speeds[-1] / speeds[0]):.3f}"
+    note = (
+        f"E ~ w^m; {span:g} degC are {decades:.3f} decades of rate, the speeds {np.log10(speeds[-1] / speeds[0]):.3f}"
+    )
     return [
         _row("power law", "exponent that meets a_v", pair(for_v), 0.0, "exponent m", for_v, note),
         _row("power law", "exponent that meets a_theta", pair(for_theta), 0.0, "exponent m", for_theta, note),
@@ -127,11 +129,11 @@ def _search(table: RigTable, seed: int) -> list[dict[str, Any]]:
         misfit, moduli = best
         coefficients = table.coefficients(moduli)
         strong = moduli[:-1] > 0.03
-        where = ", ".join(f"{100 * m:.0f} % at {t:.0e} s" for m, t in zip(moduli[:-1][strong], TIMES[strong], strict=True))
-        note = f"of E_0: {where}; elastic {100 * moduli[-1]:.0f} %; misfit {misfit:.1e}"
-        rows.append(
-            _row("any spectrum >= 0", what, coefficients.pair, coefficients.spread, "misfit", misfit, note)
+        where = ", ".join(
+            f"{100 * m:.0f} % at {t:.0e} s" for m, t in zip(moduli[:-1][strong], TIMES[strong], strict=True)
         )
+        note = f"of E_0: {where}; elastic {100 * moduli[-1]:.0f} %; misfit {misfit:.1e}"
+        rows.append(_row("any spectrum >= 0", what, coefficients.pair, coefficients.spread, "misfit", misfit, note))
     return rows
 
 

@@ -213,5 +213,3 @@ def _varied(case: Case, base: BlockPass, factors: Sequence[Factor], row: Array) 
         if factor.scale is not None:
             block_pass = factor.scale(block_pass, float(value))
     return block_pass
-
-

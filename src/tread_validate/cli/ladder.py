@@ -1,0 +1,40 @@
+"""`tread-validate ladder`: how simple may a tread-block model be?"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def command(
+    study: Annotated[Path, typer.Argument(help="study file (YAML)")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="folder for tables and figures")] = Path(
+        "results/ladder"
+    ),
+    references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
+    decks: Annotated[Path, typer.Option("--decks", help="folder of the generated decks")] = Path("fe_inputs"),
+    mesh: Annotated[Path, typer.Option("--mesh", help="FE runs on several meshes: SIZE/CASE.csv")] = Path(
+        "results/mesh"
+    ),
+    samples: Annotated[
+        int, typer.Option("--samples", min=8, max=65536, help="base sample of the Sobol indices, a power of two")
+    ] = 256,
+) -> None:
+    """Hold every rung of the model ladder against the FE runs, and say what each effect is worth.
+
+    Example: tread-validate ladder config/study.yaml --decks fe_inputs -o results/ladder
+    """
+    from ..errors import InputError
+    from ..ladder.build import Folders, build
+    from ..study import load_study
+
+    if samples & (samples - 1):
+        raise InputError("--samples", samples, "a power of two")
+    tables = build(load_study(study), Folders(references, decks, mesh, output), typer.echo, samples)
+    for row in tables["pareto"]:
+        error = row["mean_abs_peak_normal_force_error"]
+        told = "no current reference" if error is None else f"mean error of peak N {100 * error:.1f} %"
+        typer.echo(f"{row['rung']}, {row['group']}: {row['seconds_per_pass']:.4f} s a pass, {told}")
+    typer.echo(f"tables and figures in {output}")

@@ -1,0 +1,182 @@
+"""What each physical effect is worth: the same pass with one thing changed, on two representative cases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..friction import coulomb_law
+from ..geometry import path_of
+from ..material import PronySeries, prony_series
+from ..spring import pass_of
+from ..spring.block_pass import prepare
+from ..spring.bonded import ratios, stiffened
+from ..spring.coupled.body import BodySettings
+from ..spring.coupled.roll import CoupledSettings, roll
+from ..spring.stiffness import gent_lindley, pressure_theory, shear_theory
+from ..study import Case
+from ..units import MM
+
+Array = NDArray[np.float64]
+
+COLUMNS = (
+    "case_id", "effect", "from", "to", "peak_normal_force_percent", "normal_impulse_percent",
+    "peak_positive_tangential_force_N", "peak_negative_tangential_force_N", "peak_normal_force_N", "assumed",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Peaks and impulse of one pass."""
+
+    normal: float
+    impulse: float
+    positive: float
+    negative: float
+
+
+def _of(time: Array, normal: Array, tangential: Array) -> Forces:
+    return Forces(
+        float(normal.max()),
+        float(np.trapezoid(normal, time)),
+        max(float(tangential.max()), 0.0),
+        min(float(tangential.min()), 0.0),
+    )
+
+
+def spring_forces(case: Case, variant: str) -> Forces:
+    """Return the forces of a registered variant."""
+    return _from_pass(pass_of(case, variant), case)
+
+
+def _from_pass(block_pass: Any, case: Case) -> Forces:
+    assert case.creep_ratio is not None
+    rows = block_pass.forces(case.creep_ratio)
+    return _of(block_pass.step * np.arange(rows.shape[0]), rows[:, 0], -rows[:, 1])
+
+
+def face_forces(case: Case, settings: CoupledSettings | None = None, **physics: Any) -> Forces:
+    """Return the forces of the coupled face; `physics` as `roll` takes it."""
+    face = roll(case, settings, **physics)
+    return _of(face.time, face.normal_force, face.tangential_force)
+
+
+def elastic(case: Case) -> PronySeries:
+    """Return an elastic solid with the relaxation modulus of the case's compound half-way through the contact."""
+    series = prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
+    modulus = float(series.relaxation_modulus(0.5 * path_of(case).contact_duration))
+    return PronySeries(modulus, np.zeros(1), np.ones(1), case.temperature)
+
+
+def effect_rows(cases: Sequence[Case]) -> list[dict[str, Any]]:
+    """Return the effects on each case (creep ratios known); the rows' columns are `COLUMNS`."""
+    rows = []
+    for case in cases:
+        for effect, before, after, change in _effects(case):
+            first, second = change()
+            entries = (
+                case.case_id, effect, before, after, 100.0 * (second.normal / first.normal - 1.0),
+                100.0 * (second.impulse / first.impulse - 1.0), second.positive - first.positive,
+                second.negative - first.negative, second.normal, "; ".join(case.assumed()),
+            )  # fmt: skip
+            rows.append(dict(zip(COLUMNS, entries, strict=True)))
+    return rows
+
+
+Change = Callable[[], tuple[Forces, Forces]]
+
+
+def _effects(case: Case) -> list[tuple[str, str, str, Change]]:
+    base = CoupledSettings()
+    small = replace(base, finite_strain=False)
+    coarse = replace(base, body=BodySettings(2.0 * MM, 6))
+    raw = replace(base, mesh_correction=False)
+
+    @cache
+    def cached() -> Forces:
+        return face_forces(case, base)
+
+    @cache
+    def small_strain() -> Forces:
+        return face_forces(case, small)
+
+    found: list[tuple[str, str, str, Change]] = [
+        ("shape factor", "paper", "bonded (static solve)",
+         lambda: (spring_forces(case, "paper"), spring_forces(case, "bonded"))),
+        ("shape factor by theory", "bonded (static solve)", "bonded (pressure method)",
+         lambda: (spring_forces(case, "bonded"), spring_forces(case, "bonded_theory"))),
+        ("shape factor by Gent and Lindley", "bonded (static solve)", "bonded (E/K in series)",
+         lambda: (spring_forces(case, "bonded"), _gent_lindley(case))),
+        ("neighbour coupling", "bonded (static solve)", "coupled, small strain",
+         lambda: (spring_forces(case, "bonded"), small_strain())),
+        ("strain measure", "coupled, small strain", "coupled, logarithmic strain",
+         lambda: (small_strain(), cached())),
+        ("viscoelasticity", "coupled", "elastic with E(t) at half the contact time",
+         lambda: (cached(), face_forces(case, base, series=elastic(case)))),
+        ("friction law", "coupled, the study's law", "constant coefficient 0.9",
+         lambda: (cached(), face_forces(case, base, friction=coulomb_law(0.9, 0.9)))),
+        ("friction", "coupled, the study's law", "no friction",
+         lambda: (cached(), face_forces(case, base, friction=coulomb_law(1e-6, 1e-6)))),
+        ("inertia of the slipping mass", "paper", "paper without mass",
+         lambda: (spring_forces(case, "paper"), spring_forces(case, "light"))),
+        ("mounting", f"coupled, {case.block.mounting}", f"coupled, {_other(case)}",
+         lambda: (cached(), face_forces(_mounted(case), base))),
+        ("mesh of the face", "coupled, 1 mm", "coupled, 2 mm", lambda: (cached(), face_forces(case, coarse))),
+        ("mesh correction", "coupled, corrected", "coupled, as meshed", lambda: (cached(), face_forces(case, raw))),
+        ("poisson's ratio", "coupled, 0.47", "coupled, 0.49",
+         lambda: (cached(), face_forces(_with_poisson(case, 0.49), base))),
+    ]  # fmt: skip
+    if case.is_rig:
+        found.append(
+            ("big wheel's diameter", "coupled, 0.6 m", "coupled, 1.6 m",
+             lambda: (cached(), face_forces(_big_wheel(case, 1600.0), base)))
+        )  # fmt: skip
+        found.append(
+            ("big wheel's diameter", "paper, 0.6 m", "paper, 1.6 m",
+             lambda: (spring_forces(case, "paper"), spring_forces(_big_wheel(case, 1600.0), "paper")))
+        )  # fmt: skip
+    return found
+
+
+def _gent_lindley(case: Case) -> Forces:
+    found = ratios(case)
+    normal = gent_lindley(case.block, case.compound.poissons_ratio)
+    return _from_pass(stiffened(prepare(case), normal, found.shear), case)
+
+
+def _other(case: Case) -> str:
+    return "flat" if case.block.mounting == "conforming" else "conforming"
+
+
+def _mounted(case: Case) -> Case:
+    return replace(case, block=case.block.model_copy(update={"mounting": _other(case)}))
+
+
+def _with_poisson(case: Case, ratio: float) -> Case:
+    return replace(case, compound=case.compound.model_copy(update={"poissons_ratio": ratio}))
+
+
+def _big_wheel(case: Case, diameter: float) -> Case:
+    return replace(case, path=case.path.model_copy(update={"big_wheel_diameter_mm": diameter}))
+
+
+def theory_rows(case: Case) -> list[dict[str, Any]]:
+    """Return the static stiffness ratios of the case's block from the solve and from theory."""
+    found = ratios(case)
+    block, nu = case.block, case.compound.poissons_ratio
+    rows = [
+        ("normal, face stuck", found.normal, pressure_theory(block, nu), gent_lindley(block, nu)),
+        ("normal, face sliding", found.normal_sliding, pressure_theory(block, nu, sliding=True),
+         gent_lindley(block, nu, sliding=True)),
+        ("rocking, face stuck", found.rocking, pressure_theory(block, nu, rocking=True), None),
+    ]  # fmt: skip
+    rows.append(("shear", found.shear, shear_theory(block, nu), None))
+    return [dict(zip(THEORY_COLUMNS, (case.case_id, *row, "; ".join(case.assumed())), strict=True)) for row in rows]
+
+
+THEORY_COLUMNS = ("case_id", "stiffness", "static_solve", "theory", "gent_lindley", "assumed")

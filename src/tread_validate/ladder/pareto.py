@@ -1,0 +1,250 @@
+"""Error against cost: every rung of the ladder held against the finite element reference."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+from ..compare import MetricRow, compare, scalars
+from ..compare.runs import Runs
+from ..errors import InputError
+from ..files import read_text
+from ..history import History
+from ..spring import run
+from ..study import Case
+
+RUNGS = ("paper", "bonded_theory", "bonded", "coupled_coarse", "coupled")
+GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
+    ("all", lambda case: True),
+    ("rig", lambda case: case.is_rig),
+    ("belt", lambda case: not case.is_rig),
+)
+SMALL_FORCE = 2.0
+"""N: a tangential peak is right within 10 per cent or within this."""
+
+CASE_COLUMNS = (
+    "rung", "case_id", "reference", "status", "seconds", "peak_normal_force_error", "normal_impulse_error",
+    "peak_positive_tangential_force_error_N", "peak_negative_tangential_force_error_N", "tangential_error",
+    "iso18571_normal", "iso18571_tangential", "late_sign_change", "note", "assumed",
+)  # fmt: skip
+COLUMNS = (
+    "rung", "group", "reference", "cases", "compared", "seconds_per_pass", "mean_abs_peak_normal_force_error",
+    "worst_peak_normal_force_error", "worst_case_id", "worst_normal_impulse_error", "tangential_within",
+    "worst_tangential_error_N", "least_iso18571_normal", "least_iso18571_tangential", "mean_iso18571_normal",
+    "mean_iso18571_tangential", "target", "target_met", "note", "assumed",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a rung was to reach against the finite element runs; fractions and scores, None where nothing was asked."""
+
+    groups: tuple[str, ...]
+    mean_normal: float
+    worst_normal: float | None = None
+    impulse: float | None = None
+    tangential: bool = False
+    iso_normal: float | None = None
+    iso_tangential: float | None = None
+
+    def text(self) -> str:
+        """Say the target in words."""
+        parts = [f"peak N mean {100 * self.mean_normal:g} %"]
+        if self.worst_normal is not None:
+            parts.append(f"worst {100 * self.worst_normal:g} %")
+        if self.impulse is not None:
+            parts.append(f"impulse {100 * self.impulse:g} %")
+        if self.tangential:
+            parts.append(f"peak T 10 % or {SMALL_FORCE:g} N")
+        if self.iso_normal is not None:
+            parts.append(f"ISO/TS 18571 N {self.iso_normal:g}, T {self.iso_tangential:g}")
+        return ", ".join(parts)
+
+
+TARGETS: Mapping[str, Target] = {
+    "bonded": Target(("belt",), 0.08),
+    "bonded_theory": Target(("belt",), 0.08),
+    "coupled": Target(("all", "rig", "belt"), 0.03, 0.06, 0.05, True, 0.94, 0.85),
+}
+
+
+def case_rows(
+    cases: Sequence[Case],
+    references: Runs,
+    engine: str,
+    rungs: Sequence[str] = RUNGS,
+    track: Callable[[Sequence[Any]], Any] = iter,
+) -> list[dict[str, Any]]:
+    """Run every rung on every case (creep ratios known) and compare with the references of `engine`.
+
+    Time is that of one pass on one core, the second one of its kind, so that compiling and the static solve are left
+    out. The rows' columns are `CASE_COLUMNS`.
+    """
+    source = f"fe:{engine}"
+    rows = []
+    warm: set[tuple[str, str]] = set()
+    for rung, case in track([(rung, case) for rung in rungs for case in cases]):
+        kind = (rung, f"{case.block_name} {case.path_name}")
+        if kind not in warm:
+            run(case, rung)
+            warm.add(kind)
+        begin = time.perf_counter()
+        predicted = run(case, rung)
+        seconds = time.perf_counter() - begin
+        reference = references[source, case.case_id]
+        assumed = "; ".join(case.assumed())
+        if reference.history is None:
+            values = (reference.status, seconds, *[None] * 8, reference.note)
+        else:
+            values = ("current", seconds, *_errors(compare(reference.history, predicted)), "")
+        rows.append(dict(zip(CASE_COLUMNS, (rung, case.case_id, source, *values, assumed), strict=True)))
+    return rows
+
+
+def _errors(rows: Sequence[MetricRow]) -> tuple[Any, ...]:
+    by_name = {(row.quantity, row.metric): row for row in rows}
+
+    def difference(name: str) -> float:
+        row = by_name[name, "scalar"]
+        assert row.reference is not None and row.predicted is not None
+        return row.predicted - row.reference
+
+    def relative(name: str) -> float:
+        row = by_name[name, "scalar"]
+        assert row.reference is not None
+        return difference(name) / row.reference
+
+    def score(name: str) -> float | None:
+        return by_name[name, "iso18571_r"].predicted
+
+    positive, negative = (difference(f"peak_{sign}_tangential_force") for sign in ("positive", "negative"))
+    # each peak counts by the smaller of its two measures: share of itself over 10 %, newtons over the small force
+    shares = []
+    for name, error in (("peak_positive_tangential_force", positive), ("peak_negative_tangential_force", negative)):
+        reference = abs(by_name[name, "scalar"].reference or 0.0)
+        shares.append(min(abs(error) / max(reference, 1e-12) / 0.10, abs(error) / SMALL_FORCE))
+    return (
+        relative("peak_normal_force"),
+        relative("normal_impulse"),
+        positive,
+        negative,
+        max(shares),
+        score("normal_force"),
+        score("tangential_force"),
+        by_name["late_sign_change", "scalar"].predicted,
+    )
+
+
+def pareto_rows(rows: Sequence[Mapping[str, Any]], cases: Sequence[Case]) -> list[dict[str, Any]]:
+    """Sum `case_rows` up by rung and group; the rows' columns are `COLUMNS`.
+
+    `tangential_within` is the share of runs whose tangential peaks are both right to 10 per cent or 2 N.
+    """
+    by_id = {case.case_id: case for case in cases}
+    out = []
+    for rung in dict.fromkeys(row["rung"] for row in rows):
+        for group, belongs in GROUPS:
+            own = [row for row in rows if row["rung"] == rung and belongs(by_id[row["case_id"]])]
+            if own:
+                out.append(_sum_up(rung, group, own))
+    return out
+
+
+def _sum_up(rung: str, group: str, own: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    kept = [row for row in own if row["status"] == "current"]
+    seconds = float(np.median([row["seconds"] for row in own]))
+    target = TARGETS.get(rung)
+    asked = target is not None and group in target.groups
+    entries: dict[str, Any] = dict.fromkeys(COLUMNS)
+    entries.update(
+        rung=rung, group=group, reference=own[0]["reference"], cases=len(own), compared=len(kept),
+        seconds_per_pass=seconds, target=target.text() if target is not None and asked else "",
+        note="" if len(kept) == len(own) else f"{len(own) - len(kept)} runs without a current reference",
+        assumed=own[0]["assumed"],
+    )  # fmt: skip
+    if not kept:
+        return entries
+    normal = np.array([row["peak_normal_force_error"] for row in kept])
+    impulse = np.array([row["normal_impulse_error"] for row in kept])
+    tangential = np.array([row["tangential_error"] for row in kept])
+    newtons = np.array([
+        max(abs(row["peak_positive_tangential_force_error_N"]), abs(row["peak_negative_tangential_force_error_N"]))
+        for row in kept
+    ])  # fmt: skip
+    iso = np.array([[row["iso18571_normal"], row["iso18571_tangential"]] for row in kept], dtype=float)
+    worst = int(np.argmax(np.abs(normal)))
+    entries.update(
+        mean_abs_peak_normal_force_error=float(np.mean(np.abs(normal))),
+        worst_peak_normal_force_error=float(normal[worst]),
+        worst_case_id=kept[worst]["case_id"],
+        worst_normal_impulse_error=float(impulse[np.argmax(np.abs(impulse))]),
+        tangential_within=float(np.mean(tangential <= 1.0)),
+        worst_tangential_error_N=float(newtons.max()),
+        least_iso18571_normal=float(np.nanmin(iso[:, 0])),
+        least_iso18571_tangential=float(np.nanmin(iso[:, 1])),
+        mean_iso18571_normal=float(np.nanmean(iso[:, 0])),
+        mean_iso18571_tangential=float(np.nanmean(iso[:, 1])),
+    )
+    if target is not None and asked:
+        entries["target_met"] = _met(target, entries)
+    return entries
+
+
+def _met(target: Target, entries: Mapping[str, Any]) -> bool:
+    checks = [entries["mean_abs_peak_normal_force_error"] <= target.mean_normal]
+    if target.worst_normal is not None:
+        checks.append(abs(entries["worst_peak_normal_force_error"]) <= target.worst_normal)
+    if target.impulse is not None:
+        checks.append(abs(entries["worst_normal_impulse_error"]) <= target.impulse)
+    if target.tangential:
+        checks.append(entries["tangential_within"] == 1.0)
+    if target.iso_normal is not None and target.iso_tangential is not None:
+        checks.append(entries["least_iso18571_normal"] > target.iso_normal)
+        checks.append(entries["least_iso18571_tangential"] > target.iso_tangential)
+    return all(checks)
+
+
+MESH_COLUMNS = (
+    "case_id", "element_size_mm", "elements", "wall_time_s", "peak_normal_force_N", "normal_impulse_N_s",
+    "peak_normal_force_error", "normal_impulse_error", "against",
+)  # fmt: skip
+
+
+def mesh_rows(folder: Path) -> list[dict[str, Any]]:
+    """Return what the finite element runs of a mesh study cost and how far they are from their limit.
+
+    `folder` holds <size>/<case>.csv with records beside them, size in mm with p for the point. Errors are against the
+    Richardson extrapolation of the three finest sizes, or against the finest run where there are fewer.
+    """
+    found: dict[str, list[tuple[float, History, Mapping[str, Any]]]] = {}
+    for path in sorted(folder.glob("*/*.csv")) if folder.is_dir() else []:
+        record = path.with_suffix(".yaml")
+        if not record.is_file():
+            continue
+        try:
+            size = float(path.parent.name.replace("p", "."))
+            found.setdefault(path.stem, []).append((size, History.read_csv(path), yaml.safe_load(read_text(record))))
+        except (ValueError, InputError):
+            continue
+    rows = []
+    for case_id, runs in found.items():
+        runs.sort(key=lambda item: -item[0])
+        values = np.array([[scalars(h).peak_normal_force, scalars(h).normal_impulse] for _, h, _ in runs])
+        limit, against = values[-1], f"the {runs[-1][0]:g} mm run"
+        if len(runs) >= 3:
+            first, second = values[-2] - values[-3], values[-1] - values[-2]
+            ratio = np.clip(np.abs(first / np.where(second == 0.0, 1e-30, second)), 1.5, 8.0)
+            limit, against = values[-1] + second / (ratio - 1.0), "the limit of the three finest"
+        for (size, _, record_data), value in zip(runs, values, strict=True):
+            entries = (
+                case_id, size, record_data.get("elements"), record_data.get("wall_time_s"), float(value[0]),
+                float(value[1]), *(float(v) for v in value / limit - 1.0), against,
+            )  # fmt: skip
+            rows.append(dict(zip(MESH_COLUMNS, entries, strict=True)))
+    return rows
