@@ -29,6 +29,7 @@ VERBS = {
     "report": "report",
     "check": "check",
     "accept": "accept",
+    "ladder": "ladder",
     "fit-prony": "fit_prony",
     "fit-friction": "fit_friction",
     "import-belt": "import_belt",

@@ -112,7 +112,8 @@ def _errors(rows: Sequence[MetricRow]) -> tuple[Any, ...]:
 
     def difference(name: str) -> float:
         row = by_name[name, "scalar"]
-        assert row.reference is not None and row.predicted is not None
+        assert row.reference is not None
+        assert row.predicted is not None
         return row.predicted - row.reference
 
     def relative(name: str) -> float:
