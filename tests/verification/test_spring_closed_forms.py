@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -111,9 +112,9 @@ def hereditary(stretch: Callable[[float], complex], moduli: Array, times: Array,
     values = np.empty(ends.size)
     for index, end in enumerate(ends):
         ago = np.concatenate([[0.0], np.geomspace(1e-8, 1.0, 60) * end])
-        panels = np.unique(np.concatenate([end - ago, CORNERS[CORNERS < end]]))
+        panels = np.unique(np.concatenate([end - ago, CORNERS[end > CORNERS]]))
         total = 0.0
-        for left, right in zip(panels[:-1], panels[1:], strict=True):
+        for left, right in itertools.pairwise(panels):
             s = 0.5 * (left + right) + 0.5 * (right - left) * nodes
             rate = np.array([stretch(x + 1e-30j).imag / 1e-30 for x in s])
             modulus = constant + np.exp(-(end - s)[:, None] / times) @ moduli
@@ -175,10 +176,7 @@ def test_free_rolling_creep_of_a_sticking_elastic_block_is_the_root_of_its_mean_
         compression, lag = stuck_element(case.with_creep(creep_ratio))
         end = brentq(lambda t: float(compression(t).real), CORNERS[1] + 1e-5, CORNERS[1] + 2e-3, xtol=1e-14)
         parts = [0.0, *CORNERS, end]
-        return sum(
-            quad(lambda t: float(lag(t).real), a, b, epsabs=1e-16)[0]
-            for a, b in zip(parts[:-1], parts[1:], strict=True)
-        )
+        return sum(quad(lambda t: float(lag(t).real), a, b, epsabs=1e-16)[0] for a, b in itertools.pairwise(parts))
 
     expected = brentq(mean_lag, -0.01, 0.01, xtol=1e-12)
     assert free_rolling_creep(case) == pytest.approx(expected, rel=1e-5)

@@ -30,7 +30,7 @@ FEWEST_NODES = 600
 """and never further than the contact time over this."""
 MARGIN = 1.1
 """An element is followed for its geometric contact time by this factor."""
-SLIP_TOLERANCE = 2e-4
+SLIP_TOLERANCE = 5e-5
 """Error of lambda allowed in a slip sub-step, as a fraction of the interference."""
 
 
