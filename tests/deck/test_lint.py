@@ -106,6 +106,74 @@ BROKEN_BELT: list[tuple[str, str, str, str, str]] = [
 ]  # fmt: skip
 
 
+CUBE = """*Heading
+** like a CAE job without parts
+*Preprint, echo=NO, model=NO, history=NO, contact=NO
+*Node
+      1,           0.,           0.,           0.
+      2,           1.,           0.,           0.
+      3,           1.,           1.,           0.
+      4,           0.,           1.,           0.
+      5,           0.,           0.,           1.
+      6,           1.,           0.,           1.
+      7,           1.,           1.,           1.
+      8,           0.,           1.,           1.
+      9,           0.5,           0.5,           2.
+*Element, type=C3D8R
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*Nset, nset=Bottom, generate
+ 1,  4,  1
+*Elset, elset=All
+ 1,
+*Nset, nset=RP
+ 9,
+*Elset, elset=_Top_S2, internal
+ 1,
+*Surface, type=ELEMENT, name=Top
+_Top_S2, S2
+*Orientation, name=Ori-1
+          1.,           0.,           0.,           0.,           1.,           0.
+1, 0.
+*Solid Section, elset=All, controls=EC-1, material=Steel
+,
+*Section Controls, name=EC-1, hourglass=ENHANCED
+1., 1., 1.
+*Amplitude, name=Amp-1, definition=SMOOTH STEP
+0., 0., 1., 1.
+*Material, name=Steel
+*Damping, alpha=1.
+*Density
+7.8e-09,
+*Elastic
+210000., 0.3
+*Plastic
+200., 0.
+*Surface Interaction, name=IntProp-1
+*Friction
+0.2,
+*Surface Behavior, pressure-overclosure=HARD
+*Step, name=Step-1, nlgeom=YES
+*Dynamic, Explicit
+, 1.
+*Bulk Viscosity
+0.06, 1.2
+*Boundary
+Bottom, ENCASTRE
+*Boundary, amplitude=Amp-1
+5, 3, 3, -0.1
+*Contact, op=NEW
+*Contact Inclusions, ALL EXTERIOR
+*Contact Property Assignment
+ ,  , IntProp-1
+*Dsload, amplitude=Amp-1
+Top, P, 1.
+*Restart, write, number interval=1, time marks=NO
+*Output, field, variable=PRESELECT
+*Output, history, variable=PRESELECT
+*End Step
+"""
+
+
 @pytest.fixture(scope="module")
 def texts(rig_case: Case, belt_case: Case, coarse: Callable[[Case], Case]) -> dict[str, str]:
     return {
@@ -165,6 +233,13 @@ def test_jump_of_velocity_by_a_piecewise_linear_displacement_is_a_warning(
     file = tmp_path / "kink.inp"
     file.write_text(text)
     assert [(one.rule, one.severity) for one in lint(file)] == [("velocity-jump", "warning")]
+
+
+def test_deck_in_the_manner_of_a_graphical_preprocessor_is_clean(tmp_path: Path) -> None:
+    """Blanks, empty fields, generated and internal sets, general contact, a smooth step, an orientation."""
+    file = tmp_path / "cube.inp"
+    file.write_text(CUBE)
+    assert lint(file) == []
 
 
 def test_case_blanks_comments_and_continued_lines_do_not_matter(texts: dict[str, str], tmp_path: Path) -> None:

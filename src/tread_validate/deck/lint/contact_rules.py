@@ -233,7 +233,10 @@ def _siblings(deck: Deck, position: int, direction: int) -> list[Block]:
 
 
 def _check_output(deck: Deck, names: Names, findings: Findings) -> None:
+    history = False
     for block in deck.blocks:
+        if block.keyword == "OUTPUT":
+            history = "HISTORY" in block.parameters
         if block.keyword in ("NODE OUTPUT", "NODE FILE", "NODE PRINT", "TRANSFORM"):
             name = block.parameters.get("NSET")
             if name and name not in names.nsets:
@@ -254,5 +257,5 @@ def _check_output(deck: Deck, names: Names, findings: Findings) -> None:
             if name and not names.has("CPSET", name):
                 findings.add(block, "dangling-cpset", f"*{block.keyword}: there is no *CONTACT PAIR with CPSET={name}")
             whole = {"CPSET", "SURFACE", "GENERAL CONTACT", "NSET"} & set(block.parameters)
-            if block.keyword == "CONTACT OUTPUT" and names.explicit and not whole:
-                findings.add(block, "no-cpset", "*CONTACT OUTPUT needs CPSET= in ABAQUS/Explicit")
+            if block.keyword == "CONTACT OUTPUT" and names.explicit and history and not whole:
+                findings.add(block, "no-cpset", "*CONTACT OUTPUT of a history needs CPSET= in ABAQUS/Explicit")

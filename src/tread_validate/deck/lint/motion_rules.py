@@ -18,11 +18,16 @@ def check_motion(deck: Deck, names: Names, findings: Findings) -> None:
     amplitudes = {
         (block.parameters.get("NAME") or "").upper(): _amplitude(block, findings) for block in deck.named("AMPLITUDE")
     }
+    smooth = {
+        (block.parameters.get("NAME") or "").upper()
+        for block in deck.named("AMPLITUDE")
+        if block.parameters.get("DEFINITION") == "SMOOTH STEP"
+    }
     inside = False
     for block in deck.blocks:
         inside = (inside or block.keyword == "STEP") and block.keyword != "END STEP"
         if block.keyword == "BOUNDARY":
-            _check_boundary(block, inside, names, amplitudes, findings)
+            _check_boundary(block, inside, names, amplitudes, smooth, findings)
         elif block.keyword in ("CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"):
             _check_load(block, names, findings)
         elif block.keyword == "INITIAL CONDITIONS":
@@ -55,7 +60,9 @@ def _amplitude(block: Block, findings: Findings) -> Pairs:
     return pairs
 
 
-def _check_boundary(block: Block, inside: bool, names: Names, amplitudes: dict[str, Pairs], findings: Findings) -> None:
+def _check_boundary(
+    block: Block, inside: bool, names: Names, amplitudes: dict[str, Pairs], smooth: set[str], findings: Findings
+) -> None:
     kind = block.parameters.get("TYPE") or "DISPLACEMENT"
     for line in block.data:
         fields = line.fields
@@ -89,7 +96,7 @@ def _check_boundary(block: Block, inside: bool, names: Names, amplitudes: dict[s
                 "displacement-jump",
                 f"amplitude {name} starts at {amplitudes[name][0][1]:g}: ABAQUS/Explicit takes no jump of displacement",
             )
-        elif _has_kinks(amplitudes.get(name, [])):
+        elif name not in smooth and _has_kinks(amplitudes.get(name, [])):
             findings.add(
                 line,
                 "velocity-jump",

@@ -46,7 +46,8 @@ def _check_block(
         findings.add(block, "wrong-place", f"*{block.keyword} is model data and stands before the first *STEP")
     if known.place == "step" and not inside:
         findings.add(block, "wrong-place", f"*{block.keyword} is history data and stands inside a *STEP")
-    _check_parameters(block, known, findings)
+    if not known.open:
+        _check_parameters(block, known, findings)
     _check_data(block, known, findings)
     if known.parents and not _has_parent(blocks, position, known.parents):
         findings.add(block, "wrong-place", f"*{block.keyword} belongs below *{' or *'.join(known.parents)}")

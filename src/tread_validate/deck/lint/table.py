@@ -34,6 +34,8 @@ class Keyword:
         Whether every field of a data line is a number.
     parents : tuple of str
         Keywords one of which must precede it, with nothing but other options in between.
+    open : bool
+        Known by name and place only: parameters are not checked.
     """
 
     place: Place
@@ -44,6 +46,7 @@ class Keyword:
     lines: tuple[int, int]
     numeric: bool
     parents: tuple[str, ...]
+    open: bool
 
 
 def _keyword(entry: dict[str, Any]) -> Keyword:
@@ -58,6 +61,7 @@ def _keyword(entry: dict[str, Any]) -> Keyword:
         lines=(lines[0], lines[1]),
         numeric=entry.get("numbers", False),
         parents=tuple(entry.get("below", ())),
+        open=entry.get("open", False),
     )
 
 
