@@ -6,13 +6,15 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..compare.rig_peaks import rig_peaks
 from ..files import write_text
 from ..study import load_study
 from . import figures
 from .baseline import baseline_section
 from .cases import case_views
-from .content import Figures, Item, Paragraph, Report, Section
+from .content import Item, Report, Section
 from .extra import ladder_section
+from .figures import figure_items
 from .histories import HistoryStore, load_histories
 from .html import render
 from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
@@ -20,6 +22,7 @@ from .marks import Marks
 from .palette import looks
 from .pdf import write_pdf
 from .results import claims_table, differences_table, ensemble_table, table1
+from .route import route_items
 from .summary import CAVEAT, LEAD, summary
 from .tables import read_tables
 from .widgets import browser, heatmap, scatter
@@ -92,12 +95,13 @@ def compose(study_path: Path, places: Places) -> Report:
     tables = read_tables(places.tables)
     marks = Marks(tables.assumed)
     views = case_views(tables.cases)
-    histories = load_histories(tables, HistoryStore(places.spring, places.reference))
-    look = looks(tables.sources("fe"), tables.sources("spring"))
+    rig = rig_peaks(places.reference.parent, study.cases())
+    histories = load_histories(tables, HistoryStore(places.spring, places.reference, rig))
+    look = looks([*tables.sources("fe"), *tables.sources("rig")], tables.sources("spring"))
     browse, data = browser(tables, views, histories, look, marks)
     heat, data["heat"] = heatmap(tables, views, marks)
     points, data["scatter"] = scatter(tables, views, look, marks)
-    drawn = figures.Studio(study, tables, views, histories, look, marks, places.decks, places.out / "figures")
+    drawn = figures.Studio(study, tables, views, histories, look, marks, places.decks, places.out / "figures", rig)
     delta, moved = baseline_section(places.baseline_delta, marks)
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
@@ -108,17 +112,18 @@ def compose(study_path: Path, places: Places) -> Report:
         Section(
             "table1",
             "Speed and temperature",
-            (table1(tables, marks), *_figures(drawn.regressions()), differences_table(tables, marks)),
+            (table1(tables, marks), *figure_items(drawn.regressions()), differences_table(tables, marks)),
         ),
         Section("claims", "Published statements", (claims_table(tables, marks),)),
         Section("cases", "Case browser", (browse,), page_only=True),
-        Section("heatmaps", "Errors over the factor grid", (heat, *_figures(drawn.heat(), pdf=True))),
-        Section("scatter", "Predicted against reference", (points, *_figures(drawn.scatter(), pdf=True))),
+        Section("heatmaps", "Errors over the factor grid", (heat, *figure_items(drawn.heat(), pdf=True))),
+        Section("scatter", "Predicted against reference", (points, *figure_items(drawn.scatter(), pdf=True))),
         delta,
-        Section("forces", "Force histories and peaks, as in the paper", _figures(drawn.forces())),
-        Section("contact", "Pressure on the contact face", _figures(drawn.contact())),
-        Section("material", "Compound and friction", _figures(drawn.material())),
-        Section("geometry", "Belt, rig and mesh", _figures(drawn.geometry())),
+        Section("forces", "Force histories and peaks, as in the paper", figure_items(drawn.forces())),
+        Section("contact", "Pressure on the contact face", figure_items(drawn.contact())),
+        Section("material", "Compound and friction", figure_items(drawn.material())),
+        Section("geometry", "Belt, rig and mesh", figure_items(drawn.geometry())),
+        Section("route", "From raw data to model input", route_items(study, drawn)),
         ladder_section(places.ladder, marks),
         inputs_section(tables, marks),
         provenance_section(tables),
@@ -132,16 +137,6 @@ def compose(study_path: Path, places: Places) -> Report:
         stamp=stamp(tables),
         page_data=data,
     )
-
-
-def _figures(drawn: tuple[figures.Drawn, ...], pdf: bool = False) -> tuple[Item, ...]:
-    """Group figures; those that could not be drawn leave their reason in words."""
-    found: list[Item] = []
-    shown = tuple(item.figure for item in drawn if item.figure is not None)
-    if shown:
-        found.append(Figures(shown, pdf_only=pdf))
-    found += [Paragraph(item.reason, tone="mute", pdf_only=pdf) for item in drawn if item.figure is None]
-    return tuple(found)
 
 
 def _copy_tables(places: Places) -> None:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..compare.rig_peaks import RigPeak
 from ..history import History
 from .tables import Tables
 
@@ -23,6 +25,15 @@ class HistoryStore:
 
     spring: Path
     reference: Path
+    rig: Mapping[str, RigPeak] = field(default_factory=dict)
+
+    def load(self, source: str, case_id: str) -> History | None:
+        """Return one history, None where there is none; a rig's is the mean over its passes."""
+        if source.startswith("rig:"):
+            peak = self.rig.get(case_id)
+            return peak.history if peak is not None and peak.source == source else None
+        path = self.path(source, case_id)
+        return History.read_csv(path) if path.is_file() else None
 
     def path(self, source: str, case_id: str) -> Path:
         """Return the file of one history; it need not exist."""
@@ -38,11 +49,11 @@ def load_histories(tables: Tables, store: HistoryStore) -> dict[str, dict[str, H
     found: dict[str, dict[str, History]] = {}
     for row in tables.peaks.itertuples(index=False):
         source, case_id = str(row.source), str(row.case_id)
-        if row.status != "current" or source.split(":")[0] not in ("spring", "fe") or source == "fe:published":
+        if row.status != "current" or source.endswith(":published"):
             continue
-        path = store.path(source, case_id)
-        if path.is_file():
-            found.setdefault(case_id, {})[source] = History.read_csv(path)
+        history = store.load(source, case_id)
+        if history is not None:
+            found.setdefault(case_id, {})[source] = history
     return found
 
 

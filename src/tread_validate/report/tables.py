@@ -73,9 +73,9 @@ class Tables:
     folder: Path
 
     def sources(self, kind: str) -> list[str]:
-        """Return the sources of `kind` (``spring`` or ``fe``) that occur in the peaks, in the table's order."""
+        """Return the sources of `kind` (``spring``, ``fe`` or ``rig``) that have runs, in the order of the peaks."""
         names = dict.fromkeys(str(name) for name in self.peaks["source"])
-        return [name for name in names if name.split(":")[0] == kind and name != "fe:published"]
+        return [name for name in names if name.split(":")[0] == kind and not name.endswith(":published")]
 
 
 def read_tables(folder: Path | str) -> Tables:

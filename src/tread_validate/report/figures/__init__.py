@@ -1,6 +1,6 @@
 """The report's drawn figures, as SVG and PNG files."""
 
 from .studio import Studio
-from .style import Drawn
+from .style import Drawn, figure_items
 
-__all__ = ["Drawn", "Studio"]
+__all__ = ["Drawn", "Studio", "figure_items"]

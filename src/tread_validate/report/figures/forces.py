@@ -7,6 +7,7 @@ from pathlib import Path
 
 from matplotlib.axes import Axes
 
+from ...compare.rig_peaks import RigPeak
 from ...history import History
 from .. import wording
 from ..cases import CaseView
@@ -56,6 +57,7 @@ def peaks_panel(
     shape: str,
     temperature: str,
     marks: tuple[Mark, ...],
+    rig: Mapping[str, RigPeak],
 ) -> Drawn:
     """Draw peak normal force against speed for one shape and temperature: one colour per interference."""
     peaks = {
@@ -84,6 +86,11 @@ def peaks_panel(
                         lw=1.1,
                         color=colors[depth],
                     )
+        for view in chosen:
+            measured, speed = rig.get(view.case_id), number(view.row["speed_m_s"])
+            if measured is not None and speed is not None:
+                color = colors[view.levels["interference_mm"]]
+                axes.plot([speed, speed], [measured.lowest, measured.highest], "_-", color=color, lw=1.0, ms=6)
         for depth in depths:
             axes.plot([], [], color=colors[depth], label=f"{depth} mm")
         for source, look in looks.items():
@@ -96,4 +103,6 @@ def peaks_panel(
 
     title = f"Peak normal force against speed, {shape}, {temperature} °C"
     caption = "As the paper's Fig. 6, whose values are not published. Colour: interference; line and marker: source."
+    if rig:
+        caption += " Bars: least and largest measured peak."
     return draw(folder, f"peaks-{shape}-{temperature}c".replace(" ", "-"), title, caption, paint, marks)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...geometry import Path as BlockPath
 from ...geometry import path_of, read_belt_trace
+from ...geometry.trace_file import read_belt
 from ...study import Case, MeasuredBelt, Rig
 from ...units import MM
 from ..content import Mark
@@ -36,14 +37,23 @@ def belt_heights(folder: Path, paths: Mapping[str, Case], marks: tuple[Mark, ...
             level = float(path_of(case).mount(0.0)[1])
             axes.plot(x / MM, (y - level) / MM, style, color=color, label=_named(name, case))
             if isinstance(case.path, MeasuredBelt):
-                places, height = read_belt_trace(case.root / case.path.file, case.path.trace)
-                near = np.abs(places) <= REACH
-                axes.plot(places[near] / MM, height[near] / MM, ".", ms=2.5, color=color, alpha=0.6)
+                for ridge, (places, height) in _ridges(case).items():
+                    near = np.abs(places) <= REACH
+                    own = ridge == case.path.trace
+                    axes.plot(
+                        places[near] / MM,
+                        height[near] / MM,
+                        "." if own else "-",
+                        ms=2.5,
+                        lw=0.6,
+                        color=color if own else "#9aa3ab",
+                    )
         axes.set(xlabel="distance from the middle of the patch, mm", ylabel="height over the flat patch, mm")
         axes.legend()
 
     caption = (
-        "As the paper's Fig. 8(a). Lines: the path that the block's mount follows; points: smoothed trace heights."
+        "As the paper's Fig. 8(a). Lines: the path that the block's mount follows; points: smoothed heights of its "
+        "ridge; thin grey: the other ridges."
     )
     return draw(folder, "belt-heights", "Height of the tyre belt", caption, paint, marks)
 
@@ -118,6 +128,15 @@ def belt_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
         "the leading edge (left) and leaves at the trailing edge."
     )
     return draw(folder, "belt-sketch", f"The tyre belt, {_named(case.path_name, case)}", caption, paint, marks)
+
+
+def _ridges(case: Case) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Return the smoothed ridges of a measured belt: all of a belt file, the used one of raw heights."""
+    assert isinstance(case.path, MeasuredBelt)
+    file = case.root / case.path.file
+    if file.suffix.lower() == ".csv":
+        return {case.path.trace: read_belt_trace(file, case.path.trace)}
+    return read_belt(file)
 
 
 def _block(axes: Axes, path: BlockPath, instants: tuple[float, ...]) -> None:

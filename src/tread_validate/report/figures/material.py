@@ -8,8 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...friction import law
+from ...friction.table_file import read_friction_table
 from ...material import prony_series, surrogate_modulus
-from ...study import Compound, FractionalZener, Friction
+from ...material.compound import compound_route
+from ...study import Compound, FractionalZener, Friction, FrictionTable
 from ...units import MPA
 from ..content import Mark
 from ..palette import BLACK, BLUE, GREEN, PURPLE, VERMILION
@@ -20,11 +22,22 @@ PRESSURES = (0.08e6, 0.2e6, 0.4e6, 1.0e6)  # Pa
 
 def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple[Mark, ...]) -> Drawn:
     """Draw storage and loss modulus against frequency, with the data where they are a law."""
-    series = prony_series(compound, root)
+    series, route = prony_series(compound, root), compound_route(compound, root)
     low, high = compound.fit.band_rad_s if hasattr(compound, "fit") else (0.25, 2500.0)
     w = np.geomspace(0.1 * low, 10.0 * high, 241)
 
     def paint(axes: Axes) -> None:
+        if route is not None:
+            curve = route.master
+            axes.plot(
+                curve.angular_frequency,
+                curve.raw_storage_modulus / MPA,
+                "o",
+                ms=2,
+                color="#9aa3ab",
+                label="data, shifted",
+            )
+            axes.plot(curve.angular_frequency, curve.raw_loss_modulus / MPA, "o", ms=2, color="#9aa3ab")
         if isinstance(compound, FractionalZener):
             data = np.geomspace(low, high, 29)
             modulus = surrogate_modulus(compound, data)
@@ -50,14 +63,21 @@ def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple
 def friction(folder: Path, name: str, friction_law: Friction, root: Path, marks: tuple[Mark, ...]) -> Drawn:
     """Draw the kinetic coefficient against slip speed at several pressures."""
     rule = law(friction_law, root)
+    data = read_friction_table(root / friction_law.file) if isinstance(friction_law, FrictionTable) else None
+    pressures = (
+        PRESSURES if data is None else tuple(np.quantile(data.pressures, (0.0, 0.33, 0.67, 1.0), method="nearest"))
+    )
     speed = np.geomspace(1e-4, 20.0, 241)
 
     def paint(axes: Axes) -> None:
         for pressure, color, style in zip(
-            PRESSURES, (GREEN, BLUE, BLACK, VERMILION), (":", "--", "-", "-."), strict=True
+            pressures, (GREEN, BLUE, BLACK, VERMILION), (":", "--", "-", "-."), strict=True
         ):
             values = rule.kinetic(np.full_like(speed, pressure), speed)
-            axes.plot(speed, values, style, color=color, label=f"{pressure / MPA:g} MPa")
+            axes.plot(speed, values, style, color=color, label=f"{pressure / MPA:.3g} MPa")
+            if data is not None:
+                near = data.pressures[data.pressure_level] == pressure
+                axes.plot(data.slip_speed[near], data.coefficient[near], "o", ms=2.5, color=color)
         axes.axhline(rule.static_coefficient, color=PURPLE, lw=1.0)
         axes.text(1.1e-4, rule.static_coefficient, " static", color=PURPLE, va="bottom", fontsize=7.5)
         axes.set(xscale="log", xlabel="slip speed, m/s", ylabel="coefficient of friction", ylim=(0, None))

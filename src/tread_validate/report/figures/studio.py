@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from ...compare.rig_peaks import RigPeak
 from ...history import History
 from ...study import Case, LoadedStudy, MeasuredBelt, Rig
 from ..cases import CaseView
@@ -30,6 +31,7 @@ class Studio:
     marks: Marks
     decks: Path
     folder: Path
+    rig: Mapping[str, RigPeak] = field(default_factory=dict)
 
     def regressions(self) -> tuple[Drawn, ...]:
         """Draw coefficients and residuals."""
@@ -122,6 +124,7 @@ class Studio:
                 shape,
                 temperature,
                 self.marks.of(*(view.assumed for view in members)),
+                self.rig,
             )
             for (shape, temperature), members in grids.items()
             if len({view.levels["speed"] for view in members}) > 1
@@ -139,12 +142,14 @@ class Studio:
         compounds = dict.fromkeys(str(view.row.get("compound", "")) for view in self.views)
         laws = dict.fromkeys(str(view.row.get("friction", "")) for view in self.views)
         found = [
-            material.moduli(self.folder, name, model.compounds[name], root, self._input(f"compound {name}"))
+            material.moduli(self.folder, name, model.compounds[name], root, self.input_marks(f"compound {name}"))
             for name in compounds
             if name in model.compounds
         ]
         found += [
-            material.friction(self.folder, name, model.friction_laws[name], root, self._input(f"friction law {name}"))
+            material.friction(
+                self.folder, name, model.friction_laws[name], root, self.input_marks(f"friction law {name}")
+            )
             for name in laws
             if name in model.friction_laws
         ]
@@ -165,13 +170,15 @@ class Studio:
                 geometry.belt_curvature(self.folder, belts, marks),
             ]
             first = next(iter(belts.values()))
-            found.append(geometry.belt_sketch(self.folder, first, self._input(f"path {first.path_name}")))
-        found += [geometry.rig_sketch(self.folder, case, self._input(f"path {case.path_name}")) for case in rigs[:1]]
+            found.append(geometry.belt_sketch(self.folder, first, self.input_marks(f"path {first.path_name}")))
+        found += [
+            geometry.rig_sketch(self.folder, case, self.input_marks(f"path {case.path_name}")) for case in rigs[:1]
+        ]
         blocks = {case.block_name: case for case in reversed(self._cases())}
         for name, case in reversed(blocks.items()):
             file = self.decks / case.case_id / "mesh.vtu"
             title = f"Mesh of block {name.replace('_', ' ')}"
-            found.append(geometry.mesh(self.folder, file, title, self._input(f"block {name}")))
+            found.append(geometry.mesh(self.folder, file, title, self.input_marks(f"block {name}")))
         return tuple(found)
 
     def _cases(self) -> tuple[Case, ...]:
@@ -197,7 +204,7 @@ class Studio:
         paths = self.study.model.paths
         return {name for name, path in paths.items() if kind is None or isinstance(path, kind)}
 
-    def _input(self, name: str) -> tuple[Mark, ...]:
+    def input_marks(self, name: str) -> tuple[Mark, ...]:
         """Return the mark of one input, if it is assumed or synthetic."""
         return tuple(mark for mark in self.marks.all() if mark.text.startswith(f"{name} ("))
 

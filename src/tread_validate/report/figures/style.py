@@ -15,7 +15,7 @@ from matplotlib.figure import Figure as Canvas
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ...files import atomic_path
-from ..content import Figure, Mark
+from ..content import Figure, Figures, Item, Mark, Paragraph
 from ..marks import in_words
 
 WIDTH, HEIGHT = 4.7, 3.2  # inches: legible on a phone, two abreast on a desk
@@ -94,3 +94,13 @@ def draw(
         with atomic_path(folder / f"{key}.png") as temporary:
             canvas.savefig(temporary, format="png", dpi=DPI, metadata={"Software": None})
     return Drawn(Figure(key, title, caption, svg, marks, wide))
+
+
+def figure_items(drawn: tuple[Drawn, ...], pdf: bool = False) -> tuple[Item, ...]:
+    """Group figures; those that could not be drawn leave their reason in words. `pdf`: for the PDF alone."""
+    found: list[Item] = []
+    shown = tuple(item.figure for item in drawn if item.figure is not None)
+    if shown:
+        found.append(Figures(shown, pdf_only=pdf))
+    found += [Paragraph(item.reason, tone="mute", pdf_only=pdf) for item in drawn if item.figure is None]
+    return tuple(found)

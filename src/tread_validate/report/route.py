@@ -1,0 +1,42 @@
+"""The section that leads from raw laboratory files to what the models take; absent where none is used."""
+
+from __future__ import annotations
+
+from ..geometry.trace import level
+from ..geometry.trace_import import read_ridges
+from ..material.compound import compound_route
+from ..study import LoadedStudy, MeasuredBelt
+from .content import Cell, Column, Item, Row, Table
+from .figures import Studio, figure_items
+from .figures import route as drawings
+
+
+def route_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
+    """Return figures and quality of every compound made from sweeps and every belt path made from ridge heights."""
+    found: list[Item] = []
+    for name, compound in study.model.compounds.items():
+        route = compound_route(compound, study.root)
+        if route is None:
+            continue
+        marks = studio.input_marks(f"compound {name}")
+        steps = (drawings.sweeps, drawings.master, drawings.residuals)
+        found += figure_items(tuple(step(studio.folder, name, route, marks) for step in steps))
+        rows = tuple(
+            Row((Cell(key.replace("_", " ")), Cell(str(value))), marks) for key, value in route.quality().items()
+        )
+        columns = (Column("Figure of merit"), Column("Value"))
+        found.append(
+            Table(f"quality-{name}", f"Quality of the Prony fit, {name}", columns, rows, with_marks=True, folded=True)
+        )
+    for name, path in study.model.paths.items():
+        if not isinstance(path, MeasuredBelt) or not path.file.lower().endswith(".csv"):
+            continue
+        marks = studio.input_marks(f"path {name}")
+        traces = level(read_ridges(study.root / path.file))
+        used = next(trace for trace in traces if trace.name == path.trace)
+        drawn = (
+            drawings.ridges(studio.folder, name, traces, marks),
+            drawings.ridge_curvature(studio.folder, name, used, marks),
+        )
+        found += figure_items(drawn)
+    return tuple(found)
