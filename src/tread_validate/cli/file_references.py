@@ -20,8 +20,10 @@ def command(
 
     Example: tread-validate file-references results/fe/embedded/*.csv --convergence reference_data/fe/mesh
     """
+    import pandas as pd
     import yaml
 
+    from ..compare.energy import energy_shares
     from ..errors import InputError
     from ..files import read_text, write_bytes, write_text
     from ..provenance import sha256_file
@@ -45,7 +47,13 @@ def command(
         if study is not None:
             record["mesh_error"] = study["mesh_error"]
             record["mesh_error_from"] = f"three meshes of {study['case_id']}, {study['method']}"
+        energies = history.with_name(f"{history.stem}_energies.csv")
+        if energies.is_file():
+            record["energy"] = energy_shares(pd.read_csv(energies))
         target = fe_path(references, engine, case_id)
+        face = history.with_name(f"{history.stem}_face.csv")
+        if face.is_file():
+            write_bytes(target.with_name(f"{case_id}_face.csv"), face.read_bytes())
         write_bytes(target, history.read_bytes())
         write_text(target.with_suffix(".yaml"), yaml.safe_dump(record, sort_keys=False))
         filed += 1
