@@ -140,7 +140,7 @@ def gather_loads(step: Step, rows: dict[str, int]) -> Loads:
         dof=np.array(dof, dtype=np.int64),
         force=np.array(force, dtype=np.float64),
         force_amplitude=np.array(force_row, dtype=np.int64),
-        faces=np.concatenate(faces) if faces else np.zeros((0, 4), dtype=np.int64),
+        faces=np.ascontiguousarray(np.concatenate(faces)) if faces else np.zeros((0, 4), dtype=np.int64),
         pressure=np.array(pressure, dtype=np.float64),
         pressure_amplitude=np.array(pressure_row, dtype=np.int64),
     )

@@ -179,7 +179,7 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 t7 = r21 - a21
                 t8 = r22 - a22
                 change += t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3 + t4 * t4 + t5 * t5 + t6 * t6 + t7 * t7 + t8 * t8
-            if not change > 1e-17:
+            if not change > 1e-15:
                 break
         # stretch, its increment, the strain increment in the rotated frame, U^-1 and J
         for i in range(n):

@@ -26,7 +26,6 @@ from .explicit_kernel import (
     Nodes,
     Prescribed,
     advance,
-    advance_parallel,
 )
 from .model import Model
 from .pairs import PairData, gather_pairs
@@ -172,8 +171,7 @@ class Simulation:
             The friction routine returned a force out of range.
         """
         begun = clock_module.monotonic()
-        if self.threads > 1:
-            numba.set_num_threads(min(self.threads, numba.config.NUMBA_NUM_THREADS))  # type: ignore[attr-defined]
+        numba.set_num_threads(min(self.threads, numba.config.NUMBA_NUM_THREADS))  # type: ignore[attr-defined]
         for number, step in enumerate(self.model.steps):
             self.samples = Samples()
             self._begin(number, step)
@@ -253,8 +251,7 @@ class Simulation:
             raise self._friction_error(int(fault[1]), int(fault[2]))
 
     def _kernel(self, count: int, dt: float, fault: NDArray[np.int64]) -> None:
-        run = advance if self.threads == 1 else advance_parallel
-        run(
+        advance(
             count, dt, self.clock, self.elements, self.nodes, self.amplitudes, self.prescribed, self.loads, self.bodies,
             tuple(data.pair for data in self.pairs), self.work, fault,
         )  # fmt: skip

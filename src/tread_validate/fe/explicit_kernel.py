@@ -326,9 +326,11 @@ def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pa
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, parallel=True, error_model="numpy")
 def advance(increments, dt, clock, elements, nodes, amplitudes, prescribed, loads, bodies, pairs, work, fault):  # type: ignore[no-untyped-def]
-    """Run `increments` increments of `dt` on one thread.
+    """Run `increments` increments of `dt`, the chunks of the loops spread over the threads that numba has.
+
+    Every number comes from the same operations in the same order whatever the number of threads.
 
     Parameters
     ----------
@@ -336,28 +338,6 @@ def advance(increments, dt, clock, elements, nodes, amplitudes, prescribed, load
     work : (4,) work of the constraints and of the master, frictional dissipation in row 1, work of the loads in row 3
     fault : (3,) out: kind of fault, pair or 0, contact or 0
     """
-    for _ in range(increments):
-        half_sum = 0.5 * (clock[2] + dt)
-        before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs)
-        for chunk in range(CHUNKS):
-            node_loop(chunk, CHUNKS, half_sum, dt, elements, nodes)
-        found = finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work)
-        if found[0] >= 0:
-            fault[0], fault[1], fault[2] = BAD_FRICTION, found[0], found[1]
-            return
-        worst = np.inf
-        for chunk in range(CHUNKS):
-            worst = min(worst, element_loop(chunk, CHUNKS, dt, elements, nodes.u))
-        for chunk in range(CHUNKS):
-            gather_loop(chunk, CHUNKS, elements, nodes)
-        if not worst > 0.0:
-            fault[0] = INVERTED
-            return
-
-
-@njit(cache=True, nogil=True, parallel=True, error_model="numpy")
-def advance_parallel(increments, dt, clock, elements, nodes, amplitudes, prescribed, loads, bodies, pairs, work, fault):  # type: ignore[no-untyped-def]
-    """Do what `advance` does, the chunks of its loops spread over threads: the same operations in the same order."""
     least = np.zeros(CHUNKS)
     for _ in range(increments):
         half_sum = 0.5 * (clock[2] + dt)

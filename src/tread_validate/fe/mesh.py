@@ -205,4 +205,4 @@ def _surface(block: Block, mesh: Mesh) -> None:
         parts.append(mesh.connectivity[elements][:, FACES[int(face[1]) - 1]])
     if not parts or not sum(len(part) for part in parts):
         raise InputError(block.where, f"surface {name} without faces", "at least one face")
-    mesh.faces[name] = np.concatenate(parts)
+    mesh.faces[name] = np.ascontiguousarray(np.concatenate(parts))

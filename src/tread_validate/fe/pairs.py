@@ -83,7 +83,7 @@ def _pair(
         slaves,
         held[slaves],
         mass[slaves],
-        np.searchsorted(slaves, faces),
+        np.ascontiguousarray(np.searchsorted(slaves, faces)),
         np.ascontiguousarray(surface.segments),
         surface.origin - model.mesh.coordinates[reference],
         surface.frame,
