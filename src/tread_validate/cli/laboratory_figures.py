@@ -41,7 +41,7 @@ def material(route: MaterialRoute, figure: Figure, mark: str = "") -> None:
         hertz = sweep.raw.angular_frequency / (2 * np.pi)
         raw.plot(hertz, sweep.raw.storage_modulus / MPA, "o", ms=3, color=color)
         raw.plot(hertz, sweep.raw.loss_modulus / MPA, "s", ms=3, mfc="none", color=color)
-        raw.plot(hertz, sweep.storage_modulus / MPA, "-", color=color, lw=1, label=f"{sweep.raw.temperature:.4g} °C")
+        raw.plot(hertz, sweep.storage_modulus / MPA, "-", color=color, lw=1, label=f"{sweep.raw.temperature:.1f} °C")
         raw.plot(hertz, sweep.loss_modulus / MPA, "--", color=color, lw=1)
     raw.set(xscale="log", yscale="log", xlabel="frequency, Hz", ylabel="modulus, MPa")
     raw.set_title("Sweeps: E′ (filled), E″ (open), smoothed", loc="left")
@@ -77,7 +77,8 @@ def material(route: MaterialRoute, figure: Figure, mark: str = "") -> None:
     if route.bands is not None and route.bands.moduli.shape[0] == carry.size:
         low, high = route.bands.moduli[carry].T / MPA
         spectrum.vlines(times * 1.12, low, high, color=GREY, lw=1, label="95 % of resamples")
-        spectrum.legend()
+        spectrum.legend(loc="center right")
+    spectrum.margins(y=0.12)
     spectrum.axhline(series.long_term_modulus / MPA, color=BLACK, lw=0.8, ls=":")
     spectrum.set(xscale="log", xlabel="relaxation time, s", ylabel="modulus of the term, MPa", ylim=(0, None))
     spectrum.set_title(f"{int(carry.sum())} terms; dotted: long-term modulus", loc="left")
@@ -145,12 +146,12 @@ def rig(passes: RigPasses, figure: Figure, mark: str = "") -> None:
         axes.fill_between(passes.time * ms, forces.min(0), forces.max(0), color=color, alpha=0.3, lw=0, label="range")
         axes.plot(passes.time * ms, forces.mean(0), color=color, label=f"mean of {passes.count} passes")
         axes.set(xlabel="time from first touch, ms", ylabel=f"{name} force, N")
-        axes.legend()
+        axes.legend(loc="lower center" if axes is normal else "upper right")
     normal.set_title(f"{passes.speed_rpm:.1f} rpm, low-pass {passes.cutoff:g} Hz{mark}", loc="left")
     values = passes.normal_force.max(axis=1)
     spread = passes.peak_normal_force
     peaks.plot(np.zeros(values.size), values, "o", mfc="none", color=GREY, ms=4)
     below, above = spread.mean - spread.least, spread.largest - spread.mean
     peaks.errorbar([0.3], [spread.mean], yerr=[[below], [above]], fmt="s", color=BLUE, capsize=4)
-    peaks.set(xlim=(-0.4, 0.7), xticks=[], ylabel="peak normal force, N", ylim=(0, None))
+    peaks.set(xlim=(-0.4, 0.7), xticks=[], ylabel="peak normal force, N", ylim=(0, 1.15 * spread.largest))
     peaks.set_title("passes; mean, min, max", loc="left")

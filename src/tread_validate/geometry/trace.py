@@ -129,7 +129,7 @@ def _levelled(ridges: RidgeHeights, name: str, fit: PatchFit, centre: float) -> 
     used_gap = np.isfinite(raw) & ~fit.used
     shift = 0.0
     if used_gap.any():
-        kept = fit_patch(position, raw, where, keep_spikes=True).edges
+        kept = fit_patch(position, raw, where, keep_spikes=True, near=fit.edges).edges
         shift = max(abs(kept[0] - fit.edges[0]), abs(kept[1] - fit.edges[1]))
     return LevelledTrace(
         name=name,
@@ -151,7 +151,7 @@ def _levelled(ridges: RidgeHeights, name: str, fit: PatchFit, centre: float) -> 
 def _patch_length(ridges: RidgeHeights, name: str, fit: PatchFit) -> Estimate:
     """Statistical 95 % interval, widened by what another knot spacing changes."""
     others = [
-        fit_patch(ridges.position, ridges.heights[name], name, knot_spacing=factor * KNOT_SPACING).patch_length
+        fit_patch(ridges.position, ridges.heights[name], name, factor * KNOT_SPACING, near=fit.edges).patch_length
         for factor in (2.0 / 3.0, 4.0 / 3.0)
     ]
     model = max(abs(other - fit.patch_length) for other in others)

@@ -9,6 +9,7 @@ held smooth by a Gaussian prior on its second differences: without it a jump ins
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,15 +96,12 @@ def _knots(reach: float, spacing: float) -> int:
 
 def _flank(distance: Array, knots: int, spacing: float) -> Array:
     """Return the double integrals of the hat functions at 0, spacing, 2 spacing ... at `distance` from the edge."""
-    d = np.maximum(distance, 0.0)[:, None]
-    k: Array = np.arange(knots, dtype=np.float64) * spacing
-
-    def ramp(shift: Array) -> Array:
-        return np.asarray(np.maximum(d - shift, 0.0) ** 3 / (6.0 * spacing), dtype=np.float64)
-
-    hats = ramp(k - spacing) - 2.0 * ramp(k) + ramp(k + spacing)
+    d = np.maximum(distance, 0.0)
+    beyond = np.maximum(d[:, None] - spacing * np.arange(-1, knots + 1), 0.0)
+    ramps = beyond * beyond * beyond / (6.0 * spacing)
+    hats = ramps[:, :-2] - 2.0 * ramps[:, 1:-1] + ramps[:, 2:]
     # the first hat has only its outer half: 1 at the edge, falling to 0 at the first knot
-    hats[:, :1] = 0.5 * d**2 - ramp(np.zeros(1)) + ramp(np.array([spacing]))
+    hats[:, 0] = 0.5 * d * d - ramps[:, 1] + ramps[:, 2]
     return np.asarray(hats, dtype=np.float64)
 
 
@@ -116,7 +114,11 @@ def design(x: Array, edges: tuple[float, float], span: tuple[float, float], spac
 
 def prior(edges: tuple[float, float], span: tuple[float, float], spacing: float) -> Array:
     """Return the rows of the prior: first and second differences of the flanks' knots over their deviations."""
-    knots = _knots(edges[0] - span[0], spacing), _knots(span[1] - edges[1], spacing)
+    return _prior((_knots(edges[0] - span[0], spacing), _knots(span[1] - edges[1], spacing)), spacing)
+
+
+@lru_cache(maxsize=64)
+def _prior(knots: tuple[int, int], spacing: float) -> Array:
     per_knot = spacing / KNOT_SPACING
     stencils = (
         np.array([-1.0, 1.0]) / (SLOPE * per_knot),
@@ -211,18 +213,23 @@ def _noise_of(y: Array) -> float:
 
 
 def fit_patch(
-    x: Array, y: Array, where: str, knot_spacing: float = KNOT_SPACING, keep_spikes: bool = False
+    x: Array,
+    y: Array,
+    where: str,
+    knot_spacing: float = KNOT_SPACING,
+    keep_spikes: bool = False,
+    near: tuple[float, float] | None = None,
 ) -> PatchFit:
     """Fit patch and flanks to heights `y` in m (NaN: gap, positive away from the road) at `x` in m, both (n,).
 
     The edges minimise the squared residual. Spikes (beyond 4.5 robust standard deviations) are set aside and the fit
-    repeated until none is left, unless `keep_spikes`. Raises `InputError` where there is no flat patch to be found.
+    repeated until none is left, unless `keep_spikes`. The search starts from edges `near`, where given. Raises `InputError` where there is no flat patch to be found.
     """
     measured = np.isfinite(y)
     used = measured.copy()
     span = float(x[measured][0]), float(x[measured][-1])
     noise = _noise_of(y)
-    edges = _first_guess(x[used], y[used], where)
+    edges = near if near is not None else _first_guess(x[used], y[used], where)
     for _ in range(20):
         problem = _Problem(x[used], y[used], span, knot_spacing, noise)
         edges = problem.best_edges(edges)

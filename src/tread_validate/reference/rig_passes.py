@@ -91,7 +91,8 @@ def low_pass(signal: Array, sampling_rate: float, cutoff: float, order: int = OR
 
     Both ways together the power is halved (-3 dB) at `cutoff` in Hz; the single filter's corner is moved up for that.
     """
-    corner = cutoff / (np.sqrt(2.0) - 1.0) ** (1.0 / (2 * order))
+    bent = np.tan(np.pi * cutoff / sampling_rate) / (np.sqrt(2.0) - 1.0) ** (1.0 / (2 * order))
+    corner = sampling_rate * np.arctan(bent) / np.pi  # the digital filter bends the frequency axis
     sections = butter(order, corner, fs=sampling_rate, output="sos")
     return np.asarray(sosfiltfilt(sections, signal), dtype=np.float64)
 
@@ -123,7 +124,8 @@ def cut_passes(record: RigRecord, cutoff: float = CUTOFF, order: int = ORDER) ->
     shape = shape - np.median(shape)
     centre = phase[int(np.argmax(shape))]
     # cut half a revolution from the contact
-    starts = np.interp(np.arange(marks.size - 1) + centre - 0.5, np.arange(marks.size), marks, left=np.nan)
+    places = np.arange(marks.size) + centre - 0.5
+    starts = np.interp(places, np.arange(marks.size), marks, left=np.nan, right=np.nan)
     starts = starts[np.isfinite(starts)]
     starts = starts[starts >= 0]
     if starts.size < 3:
