@@ -22,7 +22,7 @@ def command(
 
     Example: tread-validate check results/tables --junit check.xml --markdown check.md
     """
-    from ..compare.baseline import load_baseline
+    from ..compare.baseline import load_baseline, same_study
     from ..compare.baseline_rows import rows_of_tables
     from ..compare.delta import deltas
     from ..compare.delta_output import delta_csv, delta_junit, delta_lines, delta_markdown, summary
@@ -30,6 +30,7 @@ def command(
     from ..files import write_text
 
     accepted = load_baseline(baseline)
+    same_study(accepted, tables)
     rows = deltas(accepted.rows, rows_of_tables(tables))
     write_text(output or tables / "delta.csv", delta_csv(rows))
     if junit is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -86,6 +87,18 @@ def load_baseline(folder: Path | str) -> Baseline:
         raise InputError(place / ROWS, "a header only", "at least one accepted row")
     names = Acceptance.__dataclass_fields__
     return Baseline(rows, Acceptance(**{name: str(record[name]) for name in names}))
+
+
+def same_study(baseline: Baseline, tables: Path | str) -> None:
+    """Raise `InputError` where the tables are of another study than the baseline: nothing in them is comparable."""
+    path = Path(tables) / "provenance.json"
+    try:
+        facts = json.loads(read_text(path))
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path}:{error.lineno}", error.msg, "JSON") from None
+    found = facts.get("study") if isinstance(facts, dict) else None
+    if found != baseline.acceptance.study:
+        raise InputError(f"{path}: study", found, f"{baseline.acceptance.study}, the study of the baseline")
 
 
 def _record(path: Path) -> dict[str, Any]:

@@ -11,6 +11,8 @@ import numpy as np
 from ..errors import InputError
 from .rows import MetricRow
 
+NEGATIVE = ("peak_negative_tangential_force",)  # bias is that of the magnitude
+
 
 @dataclass(frozen=True)
 class BiasAndScatter:
@@ -100,8 +102,11 @@ def summarise(group: str, rows: Sequence[MetricRow]) -> Ensemble:
     bias = None
     if compared and first.metric == "scalar" and kind == "relative":
         try:
+            sign = -1.0 if first.quantity in NEGATIVE else 1.0
             bias = bias_and_scatter(
-                [row.reference for row in rows], [row.predicted for row in rows], _reference_scatter(compared)
+                [_times(sign, row.reference) for row in rows],
+                [_times(sign, row.predicted) for row in rows],
+                _reference_scatter(compared),
             )
         except InputError as error:
             notes.append(f"no bias: {error}")
@@ -126,6 +131,10 @@ def summarise(group: str, rows: Sequence[MetricRow]) -> Ensemble:
         note="; ".join(notes),
         assumed="; ".join(sorted({part for row in rows for part in row.assumed.split("; ") if part})),
     )
+
+
+def _times(sign: float, value: float | None) -> float | None:
+    return None if value is None else sign * value
 
 
 def _reference_scatter(rows: Sequence[MetricRow]) -> float:

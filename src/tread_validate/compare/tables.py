@@ -169,7 +169,9 @@ def _metric_rows(
 ) -> list[MetricRow]:
     rows: list[MetricRow] = []
     for reference_source in references:
-        for predicted_source in sources:
+        # a second engine (ABAQUS, say) is a reference of the study's own engine too
+        engine = [references[0]] if reference_source != references[0] else []
+        for predicted_source in (*sources, *engine):
             for case in cases:
                 reference, predicted = runs[reference_source, case.case_id], runs[predicted_source, case.case_id]
                 assumed = "; ".join(case.assumed())

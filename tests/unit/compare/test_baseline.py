@@ -179,6 +179,16 @@ def test_check_ends_with_one_where_a_row_moved(workspace: Any, copy: Any, capsys
     assert tread_validate([*arguments, "--report-only"]) == 0
 
 
+def test_tables_of_another_study_are_refused(workspace: Any, copy: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    """A baseline says nothing about another study: wrong input, not a failed check."""
+    baseline = copy.folder / "baseline"
+    accept(workspace.tables, baseline, "a good reason", allow_dirty=True)
+    facts = copy.tables / "provenance.json"
+    facts.write_text(facts.read_text(encoding="utf-8").replace("liu2010", "other"), encoding="utf-8")
+    assert tread_validate(["check", str(copy.tables), "--baseline", str(baseline)]) == 2
+    assert "got other, expected liu2010" in capsys.readouterr().err
+
+
 def test_tables_without_rows_are_refused(copy: Any) -> None:
     """An empty comparison is an error, not a pass."""
     path = copy.tables / "errors.csv"

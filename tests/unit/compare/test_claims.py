@@ -1,0 +1,133 @@
+"""What a published number stands for, and when a computed one agrees with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from tread_validate.compare.claim import Computed, interval, judge
+from tread_validate.compare.ensemble import summarise
+from tread_validate.compare.rows import MetricRow
+from tread_validate.reference import PublishedValue
+
+VALUE = PublishedValue(
+    "belt_normal_force", "peak_normal_force", 200.0, "N", 180.0, 220.0, "about", "5", "a force", "computed", "a run"
+)  # fmt: skip
+TABLE = replace(
+    VALUE, id="table1", section="2.3, Table 1", unit="% s/m", value=3.6, low=1.8, high=5.4, spread_kind="sd"
+)
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [(180.0, "agrees"), (220.0, "agrees"), (179.9, "disagrees"), (220.1, "disagrees"), (None, "cannot tell")],
+)
+def test_a_value_agrees_inside_its_interval_ends_included(value: float | None, expected: str) -> None:
+    """180 to 220 N, both ends in."""
+    found = judge(VALUE, "model", "spring:paper", Computed(value))
+    assert found.verdict == expected
+    if value is not None:
+        assert found.error == pytest.approx((value - 200.0) / 200.0)
+
+
+def test_a_printed_standard_deviation_becomes_the_interval_of_the_mean() -> None:
+    """3.6 (1.8) of four sets: 3.6 -+ 3.18245 x 1.8/2 = 0.736 to 6.464 (t of 3 degrees of freedom, from tables)."""
+    low, high, note = interval(TABLE)
+    assert (low, high) == pytest.approx((3.6 - 3.18245 * 0.9, 3.6 + 3.18245 * 0.9), rel=1e-5)
+    assert "mean of 4" in note
+    assert judge(TABLE, "model", "x", Computed(6.4)).verdict == "agrees"
+    assert judge(TABLE, "model", "x", Computed(6.5)).verdict == "disagrees"
+
+
+def test_a_printed_range_of_two_becomes_the_interval_of_their_mean() -> None:
+    """-0.60 (-0.58 to -0.62): half-width 12.7062 x 0.04/2 = 0.2541 (t of 1 degree of freedom; sd = range/sqrt 2)."""
+    row = replace(TABLE, value=-0.60, low=-0.62, high=-0.58, spread_kind="range")
+    low, high, _ = interval(row)
+    assert (low, high) == pytest.approx((-0.60 - 0.254124, -0.60 + 0.254124), rel=1e-5)
+
+
+def test_a_published_value_that_is_less_sure_than_itself_tells_nothing() -> None:
+    """1.4 (1.4): the interval of the mean is +-2.2, wider than the value; nothing agrees and nothing disagrees."""
+    row = replace(TABLE, value=1.4, low=0.0, high=2.8)
+    for value in (1.4, 3.0, 50.0):
+        assert judge(row, "model", "x", Computed(value)).verdict == "cannot tell"
+
+
+def test_an_input_has_to_be_the_printed_number() -> None:
+    """Without an interval four digits have to agree."""
+    row = replace(VALUE, value=8.86, low=None, high=None, spread_kind="none", comparability="input")
+    assert judge(row, "input", "study", Computed(8.86)).verdict == "agrees"
+    assert judge(row, "input", "study", Computed(8.87)).verdict == "disagrees"
+
+
+def test_what_has_to_exist_has_to_be_more_than_nothing() -> None:
+    """Some slip: 0 is none, anything above is some."""
+    row = replace(VALUE, value=None, low=0.0, high=1.0, spread_kind="exists")
+    assert judge(row, "model", "x", Computed(0.0)).verdict == "disagrees"
+    assert judge(row, "model", "x", Computed(0.01)).verdict == "agrees"
+
+
+def test_a_computed_input_that_differs_shows(copy: Any) -> None:
+    """A study at another belt speed and another wheel: the claims on these inputs disagree, those on others agree."""
+    copy.write_study(
+        lambda text: text.replace("speed_m_s: 16.7", "speed_m_s: 20.0").replace(
+            "big_wheel_diameter_mm: 600.0", "big_wheel_diameter_mm: 1600.0"
+        )
+    )
+    tables = copy.build()
+    import csv
+
+    with (tables / "claims.csv").open(newline="", encoding="utf-8") as stream:
+        found = {row["claim_id"]: row["verdict"] for row in csv.DictReader(stream) if row["source"] == "study"}
+    assert found["belt_speed"] == found["big_wheel_diameter"] == "disagrees"
+    assert found["wlf_c1"] == found["belt_compression"] == "agrees"
+
+
+ROW = MetricRow(
+    "a", "peak_normal_force", "scalar", "fe:embedded", "spring:paper", 100.0, 110.0, "N", 0.1, "relative", 0.011, 0.1,
+    True, "agrees",
+)  # fmt: skip
+
+
+def test_a_summary_counts_every_row() -> None:
+    """Three rows, one without an error: three cases, two compared; mean and largest of two; no bias."""
+    rows = [
+        ROW,
+        replace(ROW, case_id="b", predicted=80.0, error=-0.2, passed=False),
+        replace(ROW, case_id="c", reference=None, error=None, passed=None, status="missing"),
+    ]
+    found = summarise("all", rows)
+    assert (found.cases, found.compared, found.passed, found.status) == (3, 2, 1, "incomplete")
+    assert found.mean_abs_error == pytest.approx(0.15)
+    assert (found.largest_abs_error, found.largest_case_id) == (0.2, "b")
+    assert found.bias is None
+    assert "1 of 3 runs cannot be compared" in found.note
+    whole = summarise("all", rows[:2])
+    assert whole.status == "current"
+    assert whole.bias is not None
+
+
+def test_errors_of_different_kinds_are_not_averaged() -> None:
+    """Newtons and fractions do not mix: the kind that most rows have is summed up, and the note says so."""
+    rows = [ROW, replace(ROW, case_id="b"), replace(ROW, case_id="c", error=4.0, error_type="absolute")]
+    found = summarise("all", rows)
+    assert found.largest_abs_error == pytest.approx(0.1)
+    assert "1 rows judged as another error type" in found.note
+
+
+def test_no_row_with_an_error_is_no_error_of_zero() -> None:
+    """Nothing compared: no mean, no largest, status missing."""
+    found = summarise("all", [replace(ROW, error=None, passed=None, status="stale", reference=None)])
+    assert (found.mean_abs_error, found.largest_abs_error, found.status) == (None, None, "missing")
+
+
+def test_the_bias_of_a_negative_peak_is_that_of_its_magnitude() -> None:
+    """-30 predicted as -33 twice: bias 1.1, not an error for being negative."""
+    row = replace(ROW, quantity="peak_negative_tangential_force", reference=-30.0, predicted=-33.0)
+    found = summarise(
+        "all", [replace(row, reference_uncertainty=0.0), replace(row, case_id="b", reference_uncertainty=0.0)]
+    )
+    assert found.bias is not None
+    assert found.bias.bias == pytest.approx(1.1, rel=1e-12)
