@@ -1,7 +1,8 @@
 """Speed and memory of the spring model, one core, after compilation; and the time that compilation takes.
 
 Targets: a converged belt pass in 0.4 ms, a free-rolling search in 6 ms, all cases of the study in 0.15 s, 300 MB.
-The best of many repeats is printed beside the median, since a shared machine can only make a run slower.
+Times are of the processor, so that other work on a shared machine does not count; the best of many repeats is printed
+beside the median.
 """
 
 from __future__ import annotations
@@ -30,13 +31,13 @@ print(time.process_time() - start)
 
 
 def measure(work: Callable[[], object], repeats: int) -> tuple[float, float]:
-    """Return best and median time of one call, s."""
+    """Return best and median processor time of one call, s."""
     work()
     times = []
     for _ in range(repeats):
-        start = time.perf_counter()
+        start = time.process_time()
         work()
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     return min(times), statistics.median(times)
 
 

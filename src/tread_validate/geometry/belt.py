@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import brentq
@@ -53,8 +54,16 @@ def _line(case: Case) -> tuple[MountLine, float, float]:
         raise InputError(f"case {case.case_id}: path {case.path_name}", case.path.kind, "a belt")
     x, height = read_belt_trace(case.root / case.path.file, case.path.trace)
     where = f"{case.path.file}: traces.{case.path.trace}"
-    line = line_from_trace(x, height, patch_height, where)
-    return line, *_touching_arcs(line, case.height, where)
+    return _traced(x.tobytes(), height.tobytes(), case.height, patch_height, where)
+
+
+@lru_cache(maxsize=32)
+def _traced(
+    x: bytes, trace: bytes, height: float, patch_height: float, where: str
+) -> tuple[TabulatedLine, float, float]:
+    """Return line and touching arcs of a trace given as the bytes of its places and heights (m)."""
+    line = line_from_trace(np.frombuffer(x), np.frombuffer(trace), patch_height, where)
+    return line, *_touching_arcs(line, height, where)
 
 
 def _touching_arcs(line: TabulatedLine, height: float, where: str) -> tuple[float, float]:

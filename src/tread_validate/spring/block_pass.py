@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from ..errors import EngineError, InputError
 from ..friction import FrictionLaw, law
 from ..geometry import Path, path_of
 from ..material import PronySeries, prony_series
-from ..study import Case
+from ..study import Case, Compound, Friction
 from ..units import MM
 from .assembly import add_element, block_forces
 from .element import COLUMNS, run_element
@@ -199,12 +199,22 @@ def _step(case: Case, path: Path, element_length: float) -> float:
 
 
 def _rubber(case: Case) -> PronySeries:
-    return _series_at(prony_series(case.compound, case.root), case)
+    """Return the compound's series at the case's temperature; one without a data file is worked out once."""
+    if case.input_files():
+        return prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
+    return _series(case.compound, case.temperature)
 
 
-def _series_at(series: PronySeries, case: Case) -> PronySeries:
-    return series.at_temperature(case.temperature, case.compound.wlf)
+@lru_cache(maxsize=256)
+def _series(compound: Compound, temperature: float) -> PronySeries:
+    return prony_series(compound).at_temperature(temperature, compound.wlf)
 
 
 def _law(case: Case) -> FrictionLaw:
-    return law(case.friction, case.root)
+    """Return the friction law; one without a data file is worked out once."""
+    return law(case.friction, case.root) if case.input_files() else _plain_law(case.friction)
+
+
+@lru_cache(maxsize=256)
+def _plain_law(friction: Friction) -> FrictionLaw:
+    return law(friction)
