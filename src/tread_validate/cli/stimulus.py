@@ -33,6 +33,8 @@ def command(
     Example: tread-validate stimulus config/study.yaml --case belt-simplified-60c-0p2mm-16p7mps-creep0p3 \
     --pitch examples/own_study/pitch.yaml -o results/stimulus
     """
+    from functools import partial
+
     from .. import provenance, spring
     from ..errors import InputError
     from ..history import History
@@ -57,7 +59,7 @@ def command(
 
     sources = {}
     for name in variant or loaded.model.spring.variants:
-        sources[name] = by_model(case, lambda sized, name=name: spring.run(sized, variant=name))
+        sources[name] = by_model(case, partial(spring.run, variant=name))
     for item in history or ():
         label, equals, file = item.partition("=")
         if not equals or not label.replace("_", "").replace("-", "").isalnum():

@@ -1,0 +1,248 @@
+"""What of a deck CalculiX can do: read it, refuse by name what that engine would silently ignore."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..files import read_text
+from ..inp import Block, Deck, read_deck
+from .motion import Motion, read_motions
+
+# keyword -> what CalculiX 2.20 does with it
+IGNORED = {
+    "VISCOELASTIC": "the block would be elastic",
+    "TRS": "time would not be reduced",
+    "FIXED MASS SCALING": "there is no mass in a quasi-static run",
+    "VARIABLE MASS SCALING": "there is no mass in a quasi-static run",
+    "HYPERELASTIC": "only *ELASTIC is translated",
+    "EXPANSION": "temperatures are not translated",
+    "DAMPING": "there is no damping in a quasi-static run",
+    "EQUATION": "constraint equations are not translated",
+    "TIE": "ties are not translated",
+    "CLOAD": "loads are not translated",
+    "DLOAD": "loads are not translated",
+    "CONTACT": "general contact is not translated",
+}
+DROPPED = {
+    "DENSITY": "inertia (the run is quasi-static)",
+    "BULK VISCOSITY": "bulk viscosity (the run is quasi-static)",
+    "SECTION CONTROLS": "hourglass control of the deck (CalculiX has its own)",
+    "OUTPUT": "output requests (the total forces are printed)",
+    "CONTACT OUTPUT": "",
+    "NODE OUTPUT": "",
+    "ELEMENT OUTPUT": "",
+    "ENERGY OUTPUT": "",
+    "HEADING": "",
+    "END STEP": "",
+}
+READ = {
+    "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "RIGID BODY", "AMPLITUDE", "MATERIAL", "ELASTIC", "SOLID SECTION",
+    "SURFACE INTERACTION", "FRICTION", "INITIAL CONDITIONS", "BOUNDARY", "STEP", "DYNAMIC", "CONTACT PAIR",
+}  # fmt: skip
+COULOMB_ROUTINE = re.compile(r"^\s+fricmu\s*=\s*props\(2\)\s*$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class ElasticDeck:
+    """A deck of the elastic-Coulomb subset, in deck units (mm, MPa, s).
+
+    Attributes
+    ----------
+    case_id : str
+    nodes : mapping of node number to (x, y, z)
+        Of the block only.
+    elements : (n, 9) int array
+        Number and the eight nodes, C3D8R.
+    face : tuple of (element set's elements, face label)
+        The contact face.
+    mount : mapping of row number to node numbers
+        Nodes that move alike.
+    motions : mapping of row number to `Motion`
+    road : `Motion` of the road's reference node
+    wheel_radius : float or None
+        None for a plane road.
+    young, poisson, friction : float
+    durations : tuple of float, s
+    dropped : tuple of str
+        What the deck asks for and a quasi-static run has no use for.
+    """
+
+    case_id: str
+    nodes: dict[int, tuple[float, float, float]]
+    elements: NDArray[np.int64]
+    face: tuple[tuple[int, ...], str]
+    mount: dict[int, tuple[int, ...]]
+    motions: dict[int, Motion]
+    road: Motion
+    wheel_radius: float | None
+    young: float
+    poisson: float
+    friction: float
+    durations: tuple[float, ...]
+    dropped: tuple[str, ...] = field(default=())
+
+
+def read_elastic_deck(path: Path | str, user: Path | str | None = None) -> ElasticDeck:
+    """Read a deck for CalculiX.
+
+    Parameters
+    ----------
+    path : path
+        The deck; its friction is built-in, or VFRIC with Coulomb's law and equal static and kinetic coefficients.
+    user : path, optional
+        The friction routine of such a deck.
+
+    Raises
+    ------
+    InputError
+        With the line of the keyword that CalculiX would ignore, or that is not of the subset.
+    """
+    deck = read_deck(path)
+    dropped = _sift(deck)
+    sets = _sets(deck)
+    numbers, places = _block_nodes(deck)
+    elements, face = _elements(deck, sets)
+    used = set(elements[:, 1:].ravel().tolist())
+    missing = used - set(numbers)
+    if missing:
+        raise InputError(f"{deck.path}: *ELEMENT", f"node {min(missing)}", "nodes that *NODE defines")
+    mount, motions, road, radius = read_motions(deck, sets, dict(zip(numbers, places, strict=True)))
+    young, poisson = _elastic(deck)
+    return ElasticDeck(
+        case_id=_case_id(deck),
+        nodes={n: p for n, p in zip(numbers, places, strict=True) if n in used},
+        elements=elements,
+        face=face,
+        mount=mount,
+        motions=motions,
+        road=road,
+        wheel_radius=radius,
+        young=young,
+        poisson=poisson,
+        friction=_friction(deck, user),
+        durations=tuple(b.data[0].number_at(1, "a duration, s") for b in deck.named("DYNAMIC") if b.data),
+        dropped=dropped,
+    )
+
+
+def _sift(deck: Deck) -> tuple[str, ...]:
+    dropped: list[str] = []
+    for block in deck.blocks:
+        if block.keyword in IGNORED:
+            raise InputError(
+                f"{block.where}: *{block.keyword}",
+                "a keyword that CalculiX would ignore or that is not translated",
+                f"a deck without it: {IGNORED[block.keyword]}",
+            )
+        if block.keyword in DROPPED:
+            if DROPPED[block.keyword] and DROPPED[block.keyword] not in dropped:
+                dropped.append(DROPPED[block.keyword])
+        elif block.keyword == "INITIAL CONDITIONS":
+            dropped.append(f"initial {block.value('TYPE').lower()}")
+        elif block.keyword not in READ:
+            raise InputError(
+                f"{block.where}: *{block.keyword}", "a keyword outside the subset", "the documented subset"
+            )
+    if "kinematic contact (penalty contact instead)" not in dropped:
+        dropped.append("kinematic contact (penalty contact instead)")
+    return tuple(dict.fromkeys(dropped))
+
+
+def _sets(deck: Deck) -> dict[str, tuple[int, ...]]:
+    sets: dict[str, tuple[int, ...]] = {}
+    for block in deck.blocks:
+        name = None
+        if block.keyword in ("NSET", "ELSET"):
+            name = block.value(block.keyword)
+            members = _members(block)
+        elif block.keyword in ("NODE", "ELEMENT"):
+            key = "NSET" if block.keyword == "NODE" else "ELSET"
+            if key in block.parameters:
+                name = block.value(key)
+                members = tuple(line.integer_at(0, "a number") for line in block.data)
+        if name is not None:
+            sets[name] = sets.get(name, ()) + members
+    return sets
+
+
+def _members(block: Block) -> tuple[int, ...]:
+    if "GENERATE" in block.parameters:
+        members: list[int] = []
+        for line in block.data:
+            first, last = line.integer_at(0, "a first number"), line.integer_at(1, "a last number")
+            step = line.integer_at(2, "a step", 1)
+            if step < 1 or last < first:
+                raise InputError(line.where, line.text[:40], "first <= last and a step of 1 or more")
+            members += range(first, last + 1, step)
+        return tuple(members)
+    return tuple(line.integer_at(i, "a number") for line in block.data for i in range(len(line.fields)))
+
+
+def _block_nodes(deck: Deck) -> tuple[list[int], list[tuple[float, float, float]]]:
+    numbers, places = [], []
+    for block in deck.named("NODE"):
+        for line in block.data:
+            numbers.append(line.integer_at(0, "a node number"))
+            places.append(tuple(line.number_at(i, "a coordinate", 0.0) for i in (1, 2, 3)))
+    return numbers, places  # type: ignore[return-value]
+
+
+def _elements(deck: Deck, sets: dict[str, tuple[int, ...]]) -> tuple[NDArray[np.int64], tuple[tuple[int, ...], str]]:
+    rows = []
+    for block in deck.named("ELEMENT"):
+        if block.value("TYPE") != "C3D8R":
+            raise InputError(f"{block.where}: *ELEMENT, TYPE", block.value("TYPE"), "C3D8R")
+        rows += [[line.integer_at(i, "a number") for i in range(9)] for line in block.data]
+    if not rows:
+        raise InputError(deck.path, "no *ELEMENT", "a meshed block")
+    for block in deck.named("SURFACE"):
+        if block.value("TYPE", "ELEMENT") == "ELEMENT" and len(block.data) == 1 and len(block.data[0].fields) == 2:
+            name, side = (part.upper() for part in block.data[0].fields)
+            if name not in sets:
+                raise InputError(block.data[0].where, name, "an element set of the deck")
+            return np.array(rows, dtype=np.int64), (sets[name], side)
+    raise InputError(deck.path, "no element-based contact face", "*SURFACE, TYPE=ELEMENT with one set and face")
+
+
+def _elastic(deck: Deck) -> tuple[float, float]:
+    blocks = [block for block in deck.named("ELASTIC") if block.data]
+    if len(blocks) != 1 or len(blocks[0].data) != 1:
+        raise InputError(f"{deck.path}: *ELASTIC", f"{len(blocks)} of them", "one material with one line")
+    line = blocks[0].data[0]
+    return line.number_at(0, "a modulus"), line.number_at(1, "Poisson's ratio")
+
+
+def _friction(deck: Deck, user: Path | str | None) -> float:
+    blocks = list(deck.named("FRICTION"))
+    if len(blocks) != 1 or not blocks[0].data:
+        raise InputError(f"{deck.path}: *FRICTION", f"{len(blocks)} of them", "one friction law with constants")
+    block = blocks[0]
+    line = block.data[0]
+    if "USER" not in block.parameters:
+        if len(line.fields) > 1 or set(block.parameters):
+            raise InputError(f"{line.where}: *FRICTION", line.text[:40], "one constant coefficient")
+        return line.number_at(0, "a friction coefficient")
+    where = f"{block.where}: *FRICTION, USER"
+    if user is None or not COULOMB_ROUTINE.search(read_text(user)):
+        raise InputError(
+            where,
+            "a user routine, which CalculiX would ignore",
+            "built-in friction, or the routine of a Coulomb law given with --user",
+        )
+    static, kinetic = line.number_at(0, "a static coefficient"), line.number_at(1, "a kinetic coefficient")
+    if static != kinetic:
+        raise InputError(where, f"static {static:g}, kinetic {kinetic:g}", "one coefficient: CalculiX has no other law")
+    return kinetic
+
+
+def _case_id(deck: Deck) -> str:
+    for block in deck.named("HEADING"):
+        if block.data:
+            return block.data[0].text.strip()
+    return deck.path.stem
