@@ -38,10 +38,11 @@ class IncompatibleField:
         self._centre_inverse, self._centre_det = np.linalg.inv(centre), np.linalg.det(centre)
         blocks = np.zeros((nodes.shape[0], 33, 33))
         for point in GAUSS:
-            gradients, det = self._gradients(point)
+            gradients, det = self.shape_gradients(point)
             blocks += _isotropic(gradients, lame, shear) * det[:, None, None]
         self._outer, self._cross = blocks[:, :24, :24], blocks[:, :24, 24:]
-        self._inner_solved = np.linalg.solve(blocks[:, 24:, 24:], np.swapaxes(self._cross, 1, 2))
+        self._inner = blocks[:, 24:, 24:]
+        self._inner_solved = np.linalg.solve(self._inner, np.swapaxes(self._cross, 1, 2))
 
     def stiffness(self) -> Array:
         """Return the (m, 24, 24) stiffness in m, per Pa of Young's modulus; degrees of freedom (node, component)."""
@@ -54,11 +55,17 @@ class IncompatibleField:
 
     def gradient(self, displacement: Array, amplitudes: Array, point: Array) -> tuple[Array, Array]:
         """Return the displacement gradient du_i/dx_j (m, 3, 3) at a Gauss point, and its volume (m,) in m3."""
-        gradients, det = self._gradients(point)
+        gradients, det = self.shape_gradients(point)
         both = np.concatenate([displacement, amplitudes], axis=1)
         return np.asarray(np.einsum("mni,mnj->mij", both, gradients), dtype=np.float64), det
 
-    def _gradients(self, point: Array) -> tuple[Array, Array]:
+    def relax_modes(self, residual: Array) -> Array:
+        """Return the change of the internal modes, (m, 3, 3), that a residual (m, 3, 3) on them asks for."""
+        solved = np.linalg.solve(self._inner, residual.reshape(-1, 9, 1))
+        return np.asarray(solved.reshape(-1, 3, 3), dtype=np.float64)
+
+    def shape_gradients(self, point: Array) -> tuple[Array, Array]:
+        """Return the gradients of the 8 shape functions and 3 modes (m, 11, 3), 1/m, and the volumes (m,), m3."""
         jacobian = _jacobian(self._nodes, point)
         det = np.linalg.det(jacobian)
         shapes = np.einsum("ni,mij->mnj", shape_derivatives(point), np.linalg.inv(jacobian))

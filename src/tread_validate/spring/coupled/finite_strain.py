@@ -76,18 +76,23 @@ def virtual_work(field: IncompatibleField, displacement: Array, virtual: Array, 
 
     P is the first Piola-Kirchhoff stress of Cauchy stress = C : ln V.
     """
-    lame, shear = lame_constants(1.0, poissons_ratio)
     amplitudes, virtual_amplitudes = field.amplitudes(displacement), field.amplitudes(virtual)
     total = 0.0
     for point in GAUSS:
         gradient, volume = field.gradient(displacement, amplitudes, point)
-        deformation = gradient + np.eye(3)
-        squared, axes = np.linalg.eigh(deformation @ np.swapaxes(deformation, 1, 2))
-        strain = 0.5 * np.log(squared)
-        dilation = strain.sum(axis=1)
-        principal = lame * dilation[:, None] + 2.0 * shear * strain
-        cauchy = np.einsum("mk,mik,mjk->mij", principal, axes, axes)
-        piola = np.exp(dilation)[:, None, None] * cauchy @ np.linalg.inv(np.swapaxes(deformation, 1, 2))
         virtual_gradient, _ = field.gradient(virtual, virtual_amplitudes, point)
-        total += float(np.einsum("mij,mij,m->", piola, virtual_gradient, volume))
+        total += float(np.einsum("mij,mij,m->", piola_stress(gradient, poissons_ratio), virtual_gradient, volume))
     return total
+
+
+def piola_stress(gradient: Array, poissons_ratio: float) -> Array:
+    """Return the first Piola-Kirchhoff stress (m, 3, 3), per Pa of Young's modulus, of displacement gradients."""
+    lame, shear = lame_constants(1.0, poissons_ratio)
+    deformation = gradient + np.eye(3)
+    squared, axes = np.linalg.eigh(deformation @ np.swapaxes(deformation, 1, 2))
+    strain = 0.5 * np.log(squared)
+    dilation = strain.sum(axis=1)
+    principal = lame * dilation[:, None] + 2.0 * shear * strain
+    cauchy = np.einsum("mk,mik,mjk->mij", principal, axes, axes)
+    inverse = np.linalg.inv(np.swapaxes(deformation, 1, 2))
+    return np.asarray(np.exp(dilation)[:, None, None] * cauchy @ inverse, dtype=np.float64)
