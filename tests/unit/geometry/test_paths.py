@@ -121,7 +121,9 @@ def test_traced_patch_and_arcs_give_the_simplified_belts_contact(cases: dict[str
     file = tmp_path / "belt.yaml"
     rows = {"x_mm": x * 1e3, "height_mm": height * 1e3}
     text = "\n".join(f"    {key}: [{', '.join(f'{v:.9f}' for v in values)}]" for key, values in rows.items())
-    file.write_text(f"origin: synthetic\nsource: a test\npitch_mm: 2.0\ntraces:\n  mid_top:\n{text}\n", encoding="utf-8")
+    file.write_text(
+        f"origin: synthetic\nsource: a test\npitch_mm: 2.0\ntraces:\n  mid_top:\n{text}\n", encoding="utf-8"
+    )
     belt = MeasuredBelt(kind="measured_belt", origin="synthetic", source="a test", file="belt.yaml")
     case = replace(cases[BELT], path=belt, root=tmp_path)
     assert path_of(case).first_touch_arc == pytest.approx(path_of(cases[BELT]).first_touch_arc, abs=5e-5)

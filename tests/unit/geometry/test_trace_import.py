@@ -57,7 +57,7 @@ def scaled(factor: float, columns: slice) -> Callable[[Lines], None]:
 
 
 def test_raw_heights_serve_a_study_as_the_imported_file_does(shipped: Path) -> None:
-    """`measured_belt` may name either file: the same line, to the digits of the YAML (0.1 nm in height, 0.1 um in x)."""
+    """`measured_belt` may name either file: the same line to 0.1 um in x and 1 nm in height."""
     raw = read_belt_trace(shipped / "synthetic_ridges.csv", "mid_top")
     ready = read_belt_trace(shipped / "synthetic_belt.yaml", "mid_top")
     np.testing.assert_allclose(raw[0], ready[0], atol=1e-7)
