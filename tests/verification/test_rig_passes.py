@@ -12,7 +12,6 @@ from tread_validate.reference.rig_passes import cut_passes, low_pass
 from tread_validate.reference.rig_record import read_record
 from tread_validate.reference.rig_synthetic import SyntheticRig, record_csv, synthetic_record, write_tdms
 
-
 FIRST = 2  # the record starts too late for the passes before
 
 

@@ -223,7 +223,8 @@ def fit_patch(
     """Fit patch and flanks to heights `y` in m (NaN: gap, positive away from the road) at `x` in m, both (n,).
 
     The edges minimise the squared residual. Spikes (beyond 4.5 robust standard deviations) are set aside and the fit
-    repeated until none is left, unless `keep_spikes`. The search starts from edges `near`, where given. Raises `InputError` where there is no flat patch to be found.
+    repeated until none is left, unless `keep_spikes`. The search starts from edges `near`, where given. Raises
+    `InputError` where there is no flat patch to be found.
     """
     measured = np.isfinite(y)
     used = measured.copy()
