@@ -101,7 +101,9 @@ def compose(study_path: Path, places: Places) -> Report:
     browse, data = browser(tables, views, histories, look, marks)
     heat, data["heat"] = heatmap(tables, views, marks)
     points, data["scatter"] = scatter(tables, views, look, marks)
-    drawn = figures.Studio(study, tables, views, histories, look, marks, places.decks, places.out / "figures", rig)
+    drawn = figures.Studio(
+        study, tables, views, histories, look, marks, places.decks, places.reference, places.out / "figures", rig
+    )
     delta, moved = baseline_section(places.baseline_delta, marks)
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]

@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import pandas as pd
+
 from ...compare.rig_peaks import RigPeak
 from ...history import History
 from ...study import Case, LoadedStudy, MeasuredBelt, Rig
+from .. import wording
 from ..cases import CaseView
 from ..content import Mark
 from ..marks import Marks
@@ -30,6 +33,7 @@ class Studio:
     looks: Mapping[str, Look]
     marks: Marks
     decks: Path
+    reference: Path
     folder: Path
     rig: Mapping[str, RigPeak] = field(default_factory=dict)
 
@@ -132,9 +136,22 @@ class Studio:
 
     def contact(self) -> tuple[Drawn, ...]:
         """Draw the pressure on the face in mid-contact, for one case of every path."""
-        return tuple(
-            contact.pressure(self.folder, case, label, self._of(case)) for label, case in self._one_per_path().items()
-        )
+        found: list[Drawn] = []
+        for label, case in self._one_per_path().items():
+            face, engine = self._face(case.case_id)
+            found.append(contact.pressure(self.folder, case, label, face, engine, self._of(case)))
+            if face is not None:
+                found.append(contact.pressure_map(self.folder, case, label, face, engine, self._of(case)))
+        return tuple(found)
+
+    def _face(self, case_id: str) -> tuple[pd.DataFrame | None, str]:
+        """Return the contact face of the first engine with a current run of the case, and the engine's name."""
+        for source in self.histories.get(case_id, {}):
+            if source.startswith("fe:"):
+                face = contact.read_face(self.reference / source.removeprefix("fe:") / f"{case_id}_face.csv")
+                if face is not None:
+                    return face, wording.source(source)
+        return None, ""
 
     def material(self) -> tuple[Drawn, ...]:
         """Draw moduli and friction of everything that the cases use."""
