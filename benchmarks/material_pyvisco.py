@@ -54,7 +54,7 @@ def data_sets() -> dict[str, Data]:
 
 
 def error(data: Data, storage: np.ndarray, loss: np.ndarray) -> float:
-    w, e1, e2 = data
+    _, e1, e2 = data
     return float(np.sqrt(np.mean(np.concatenate([storage / e1 - 1.0, loss / e2 - 1.0]) ** 2)))
 
 

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from tread_validate.columns import read_columns
 from tread_validate.errors import InputError
@@ -71,3 +73,18 @@ def test_gaps_are_read_only_where_they_are_allowed(tmp_path: Path) -> None:
     assert np.isnan(read_columns(path, ("a", "b"), gaps=True)["b"][0])
     with pytest.raises(InputError, match="an empty cell"):
         read_columns(path, ("a", "b"))
+
+
+@given(text=st.text(max_size=200) | st.text(alphabet='ab,;\t\n01.-e#"\ufeff ', max_size=80))
+@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_any_text_is_read_or_refused_in_one_line(tmp_path: Path, text: str) -> None:
+    """No file content may end in anything but numbers or an `InputError`."""
+    path = tmp_path / "any.csv"
+    path.write_text(text, encoding="utf-8", newline="")
+    try:
+        read = read_columns(path, ("a", "b"))
+    except InputError as refused:
+        assert "\n" not in str(refused)
+    else:
+        assert np.all(np.isfinite(read["a"]))
+        assert read["a"].shape == read["b"].shape

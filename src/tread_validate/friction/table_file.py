@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..columns import read_columns
 from ..errors import InputError
 from ..provenance import sha256_file
+from ..study import Friction, FrictionTable
 from .laws import FrictionLaw, table_law
 
 Array = NDArray[np.float64]
@@ -130,3 +131,10 @@ def _read(path: Path, static_coefficient: float, digest: str) -> FrictionLaw:
     """Read once per content: `digest` is there for the cache."""
     data = read_friction_table(path)
     return table_law(data.pressures, data.speeds, table_of(data), static_coefficient)
+
+
+def measured_table(friction: Friction, root: Path | str | None = None) -> FrictionData | None:
+    """Return the measurements behind a study's ``table`` law, for a report; None for every other kind."""
+    if not isinstance(friction, FrictionTable):
+        return None
+    return read_friction_table((Path(root) if root is not None else Path()) / friction.file)
