@@ -18,9 +18,9 @@ FORCE = "peak_normal_force_N"
 def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
     """Return the peaks by source; an empty force is a missing run, which takes its set's coefficient with it.
 
-    Rows on a path other than the rig's (column `path`, where there is one) are passed over: a tyre belt case belongs to
-    no set of speeds. Raises `InputError` for a missing column, no rows, a value that is no finite number, a
-    force that is not positive, and for two rows of one run.
+    Rows that say false in a column `rig` are passed over: a tyre belt case belongs to no set of speeds. Raises
+    `InputError` for a missing column, no rows, a value that is no finite number, a force that is not positive, and for
+    two rows of one run.
     """
     lines = [line for line in read_text(path).splitlines() if not line.startswith("#")]
     reader = csv.DictReader(io.StringIO("\n".join(lines)))
@@ -54,9 +54,7 @@ def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
 
 
 def _on_rig(row: dict[str, str]) -> bool:
-    """Tell the rig's rows by their case id or path; a table without either holds nothing else."""
-    path = row.get("path")
-    return path is None or path.startswith("rig") or (row.get("case_id") or "").startswith("rig")
+    return row.get("rig", "true") != "false"
 
 
 def _number(text: str, where: str) -> float:

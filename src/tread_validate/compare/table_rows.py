@@ -20,7 +20,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
         "speed_rpm", "creep_percent", "free_rolling", "measured_profile", "shape", "assumed", "case_digest",
     ),
     "peaks": (
-        "source", "case_id", "shape", "path", "block", "temperature_degC", "interference_mm", "speed_m_s",
+        "source", "case_id", "rig", "shape", "path", "block", "temperature_degC", "interference_mm", "speed_m_s",
         *(quantity.column for quantity in SCALARS), "peak_pressure_MPa", "status", "note", "history_sha256", "assumed",
     ),
     "ensemble": (
@@ -54,6 +54,7 @@ def peak_row(case: Case, run: SourceRun) -> dict[str, Any]:
     return {
         "source": run.source,
         "case_id": case.case_id,
+        "rig": case.is_rig,
         "shape": case.block.shape,
         "path": case.path_name,
         "block": case.block_name,

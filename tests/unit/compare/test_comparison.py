@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import csv
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -169,7 +173,7 @@ def test_empty_rows_have_the_shape_of_full_ones() -> None:
     assert [(r.quantity, r.metric, r.unit) for r in full] == [(r.quantity, r.metric, r.unit) for r in empty]
 
 
-def test_the_command_compares_two_files(tmp_path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_compares_two_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """CSV and JSON on standard output or in a file; bad input ends with 2 and one line."""
     half_sine().write_csv(tmp_path / "a.csv")
     half_sine(110.0, 33.0).write_csv(tmp_path / "b.csv")
@@ -186,12 +190,27 @@ def test_the_command_compares_two_files(tmp_path, capsys: pytest.CaptureFixture[
 PEAKS = "shape,temperature_degC,interference_mm,speed_m_s,peak_normal_force_N\n"
 
 
-def test_the_command_regresses_a_table_of_peaks(tmp_path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_regresses_a_table_of_peaks(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """F = 50 (1 + 0.04 v): a_v is 0.04."""
     rows = "".join(f"rectangle,22,0.2,{v},{50 * (1 + 0.04 * v)}\n" for v in (1.0, 2.0, 4.0))
     (tmp_path / "peaks.csv").write_text(PEAKS + rows, encoding="utf-8")
     assert tread_validate(["regress", str(tmp_path / "peaks.csv")]) == 0
     assert ",rectangle,a_v,22 degC 0.2 mm,0.04,s/m" in capsys.readouterr().out
+
+
+def test_peaks_of_the_tables_can_be_regressed_as_they_are(workspace: Any, tmp_path: Path) -> None:
+    """peaks.csv goes straight in: tyre cases are passed over, and the coefficients are those of regression.csv."""
+    out = tmp_path / "regression.csv"
+    assert tread_validate(["regress", str(workspace.tables / "peaks.csv"), "-o", str(out)]) == 0
+
+    def values(path: Path) -> dict[tuple[str, ...], float]:
+        with path.open(newline="", encoding="utf-8") as stream:
+            rows = [row for row in csv.DictReader(stream) if not row["source"].endswith(":published")]
+        return {tuple(row[n] for n in ("source", "shape", "coefficient", "set")): float(row["value"]) for row in rows}
+
+    again, first = values(out), values(workspace.tables / "regression.csv")
+    assert again.keys() == first.keys()
+    assert all(again[key] == pytest.approx(first[key], rel=1e-4) for key in first)
 
 
 @pytest.mark.parametrize(
@@ -206,7 +225,9 @@ def test_the_command_regresses_a_table_of_peaks(tmp_path, capsys: pytest.Capture
         (PEAKS + "rectangle,22,0.2,1,nan\n", "finite number"),
     ],
 )
-def test_a_wrong_table_of_peaks_is_refused(text: str, match: str, tmp_path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_table_of_peaks_is_refused(
+    text: str, match: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     """One line, exit code 2."""
     (tmp_path / "peaks.csv").write_text(text, encoding="utf-8")
     assert tread_validate(["regress", str(tmp_path / "peaks.csv")]) == 2
