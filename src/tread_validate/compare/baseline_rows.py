@@ -117,6 +117,8 @@ def _errors(place: Path) -> Iterator[BaselineRow]:
         value = _value(row["error"])
         if row["metric"] == "scalar":
             width = _error_width(row, value)
+        elif row["error_type"] == "absolute":
+            width = _width(TOLERANCES["peak_positive_tangential_force"], _value(row["reference"]))
         else:
             width = _width(ISO_TOLERANCE if row["metric"].startswith("iso") else SCORE_TOLERANCE, value)
         yield BaselineRow(

@@ -4,21 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
-from ..errors import InputError
 from ..history import History
-from .align import Pair, align, window
+from .align import align, window
+from .history_rows import Names, Uncertainty, history_rows, metric_unit
 from .iso18571 import SAMPLES as ISO_SAMPLES
-from .iso18571 import IsoRating, grade, iso18571
-from .metrics import relative_rms, sprague_geers
-from .quantities import HISTORIES, HISTORY_METRICS, SCALARS, SMALL_SHARE, ErrorType, HistoryMetric, Quantity, Scale
+from .quantities import HISTORIES, HISTORY_METRICS, SCALARS, SMALL_SHARE, ErrorType, Quantity, Scale
 from .rows import CANNOT_TELL, MetricRow, verdict
 from .scalars import Scalars, scalars
-
-Uncertainty = float | Mapping[str, float] | None
-Names = tuple[str, str, str]
-TANGENTIAL_PEAKS = ("peak_positive_tangential_force", "peak_negative_tangential_force")
 
 
 def compare(
@@ -52,7 +44,7 @@ def compare(
     fine = align(reference, predicted, limits=limits)
     coarse = align(reference, predicted, ISO_SAMPLES, limits)
     for quantity in HISTORIES:
-        rows += _history_rows(quantity, fine, coarse, names, uncertainty)
+        rows += history_rows(quantity, fine, coarse, names, uncertainty)
     return tuple(row.marked(assumed) for row in rows)
 
 
@@ -76,7 +68,7 @@ def empty_rows(
         rows.append((quantity.name, "scalar", a.get(quantity.name), b.get(quantity.name), quantity.unit, kind))
     for name in HISTORIES:
         for metric in HISTORY_METRICS:
-            rows.append((name, metric.name, None, None, _unit(metric), metric.error_type))
+            rows.append((name, metric.name, None, None, metric_unit(metric), metric.error_type))
     return tuple(
         MetricRow(
             case_id, quantity_name, metric_name, reference_source, predicted_source, ref, pred, unit, None, error_type,
@@ -155,74 +147,5 @@ def _spread(quantity: Quantity, reference: Scalars, uncertainty: Uncertainty) ->
     return uncertainty * abs(value)
 
 
-def _history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertainty: Uncertainty) -> list[MetricRow]:
-    reference, predicted = fine.forces(quantity)
-    spread = _amplitude(uncertainty, quantity)
-    values: dict[str, tuple[float, float, float, str]] = {}
-    notes: dict[str, str] = {}
-    try:
-        scale, rms = float(np.max(np.abs(reference))), relative_rms(reference, predicted)
-        values["relative_rms"] = (scale, rms * scale, rms, "")
-        sprague = sprague_geers(fine.time, reference, predicted)
-        pair = (float(np.sqrt(np.mean(reference**2))), float(np.sqrt(np.mean(predicted**2))))
-        values["sprague_geers_m"] = (*pair, sprague.magnitude, "")
-        values["sprague_geers_p"] = (*pair, sprague.phase, "")
-        values["sprague_geers_c"] = (*pair, sprague.comprehensive, "")
-    except InputError as error:
-        notes = {metric.name: str(error) for metric in HISTORY_METRICS}
-    try:
-        for name, score in _iso_scores(iso18571(*coarse.forces(quantity))).items():
-            values[name] = (1.0, score, score - 1.0, grade(score) if name == "iso18571_r" else "")
-    except InputError as error:
-        notes.update({metric.name: str(error) for metric in HISTORY_METRICS if metric.name.startswith("iso")})
-    rows = []
-    for metric in HISTORY_METRICS:
-        if metric.name not in values:
-            rows.append(
-                MetricRow(
-                    names[0], quantity, metric.name, names[1], names[2], None, None, _unit(metric), None,
-                    metric.error_type, None, metric.tolerance, None, CANNOT_TELL, "undefined", notes[metric.name],
-                )
-            )  # fmt: skip
-            continue
-        ref, pred, error_value, note = values[metric.name]
-        moved = None if spread is None else metric.sensitivity * spread
-        if moved is not None and metric.error_type == "relative":
-            moved *= 1.0 + abs(error_value)
-        rows.append(
-            MetricRow(
-                names[0], quantity, metric.name, names[1], names[2], ref, pred, _unit(metric), error_value,
-                metric.error_type, moved, metric.tolerance, abs(error_value) <= metric.tolerance,
-                verdict(error_value, metric.tolerance, moved), "current", note,
-            )
-        )  # fmt: skip
-    return rows
-
-
-def _iso_scores(rating: IsoRating) -> dict[str, float]:
-    return {
-        "iso18571_r": rating.overall,
-        "iso18571_corridor": rating.corridor,
-        "iso18571_phase": rating.phase,
-        "iso18571_magnitude": rating.magnitude,
-        "iso18571_slope": rating.slope,
-    }
-
-
-def _unit(metric: HistoryMetric) -> str:
-    return "1" if metric.error_type == "score" else "N"
-
-
 def _scale(name: Scale, scales: Mapping[str, float]) -> float:
     return 1.0 if name == "one" else scales[name]
-
-
-def _amplitude(uncertainty: Uncertainty, quantity: str) -> float | None:
-    """Return the relative amplitude error of a force history: its own, or that of its peaks."""
-    if not isinstance(uncertainty, Mapping):
-        return uncertainty
-    if quantity in uncertainty:
-        return uncertainty[quantity]
-    peaks = ("peak_normal_force",) if quantity == "normal_force" else TANGENTIAL_PEAKS
-    known = [uncertainty[name] for name in peaks if name in uncertainty]
-    return max(known) if known else None

@@ -87,6 +87,20 @@ def test_a_small_tangential_reference_is_judged_in_newtons() -> None:
     assert large["peak_positive_tangential_force"].error == pytest.approx(0.2, rel=1e-6)
 
 
+def test_a_small_tangential_history_is_judged_in_newtons() -> None:
+    """T of 5 N against 6.5 N under N of 100 N: RMS of the difference 1.5/sqrt 2 N, tolerance 2 N; a large T stays
+    relative. The 1 % window leaves 0.6 % of the RMS out.
+    """
+    rows = compare(half_sine(shear=5.0), half_sine(shear=6.5), uncertainty=0.01)
+    row = next(row for row in rows if (row.quantity, row.metric) == ("tangential_force", "relative_rms"))
+    assert (row.error_type, row.unit, row.passed) == ("absolute", "N", True)
+    assert row.error == pytest.approx(1.5 / np.sqrt(2.0), rel=6e-3)
+    assert row.tolerance == pytest.approx(2.0, rel=1e-5)
+    rows = compare(half_sine(shear=30.0), half_sine(shear=39.0), uncertainty=0.01)
+    row = next(row for row in rows if (row.quantity, row.metric) == ("tangential_force", "relative_rms"))
+    assert row.error_type == "relative"
+
+
 def test_both_rules_meet_where_small_begins() -> None:
     """At a fifth of the peak normal force, 10 % of the reference is 2 % of the peak: the same newtons."""
     quantity = SCALAR["peak_positive_tangential_force"]
@@ -158,11 +172,11 @@ def test_histories_that_cannot_be_compared_are_refused(other: History, match: st
 
 
 def test_a_zero_tangential_reference_gives_undefined_rows() -> None:
-    """Scores that are relative to nothing are rows without an error, with the reason in the note."""
+    """Scores that are relative to nothing are rows without an error, with the reason in the note; the RMS is in N."""
     rows = compare(half_sine(shear=0.0), half_sine(), uncertainty=0.01)
     broken = [row for row in rows if row.status == "undefined"]
     assert {row.quantity for row in broken} == {"tangential_force"}
-    assert len(broken) == 9
+    assert len(broken) == 8
     assert all(row.error is None and row.passed is None and row.note for row in broken)
 
 

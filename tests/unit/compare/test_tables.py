@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from tread_validate.compare.quantities import HISTORIES, HISTORY_METRICS, SCALARS
 from tread_validate.compare.rows import METRIC_COLUMNS
@@ -176,3 +177,29 @@ def test_sensitivity_is_reported_for_rig_and_belt(workspace: Workspace) -> None:
     assert all(row["change"] == "0" for row in rows if row["variation"] == "as reported")
     wider = [row for row in rows if row["variation"].startswith("window 10 %") and row["metric"] == "iso18571_r"]
     assert len(wider) == 4
+
+
+@pytest.mark.parametrize("kept", ["belt", "rig"])
+def test_a_study_of_the_rig_or_of_the_belt_alone_has_its_tables(kept: str, copy: Workspace) -> None:
+    """Claims that need the other half say that the study has no such case; nothing else changes."""
+    data = yaml.safe_load(copy.study.read_text(encoding="utf-8"))
+    data["runs"] = [run for run in data["runs"] if run["name"] == kept]
+    if kept == "rig":
+        data["runs"][0].update(speed_rpm=300.0, temperature_degC=22.0)
+    data["compounds"]["surrogate"] = {
+        "kind": "prony", "origin": "measured", "source": "a test", "long_term_modulus_MPa": 12.0,
+        "terms": [{"modulus_MPa": 5.0, "relaxation_time_s": 0.01}],
+    }  # fmt: skip
+    copy.study.write_text(yaml.safe_dump(data, sort_keys=False), encoding="utf-8")
+    copy.run_springs()
+    claims = read(copy.build() / "claims.csv")
+    said = {row["claim_id"]: row["note"] for row in claims if row["source"] in ("study", "spring:paper")}
+    if kept == "belt":
+        assert "no rig case" in said["rig_peak_at_centre"]
+        assert "no rig case" in said["rig_speed_low"]
+    else:
+        assert "no tyre case" in said["tangential_reversal_at_exit"]
+        assert "several" not in said["big_wheel_diameter"]
+    assert "fitted over a band" in said["average_modulus"]
+    regressions = [row for row in read(copy.tables / "regression.csv") if row["source"] == "spring:paper"]
+    assert {row["status"] for row in regressions} <= {"undefined", "missing"}
