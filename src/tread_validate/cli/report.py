@@ -23,7 +23,10 @@ def command(
         Path | None,
         typer.Option(help="delta table that `check` wrote [default: delta.csv beside the tables, if there]"),
     ] = None,
-    ladder: Annotated[Path | None, typer.Option(help="folder of the model ladder's tables")] = None,
+    ladder: Annotated[
+        Path | None,
+        typer.Option(help="folder of the model ladder's tables [default: ladder beside the tables, if there]"),
+    ] = None,
 ) -> None:
     """Write the report: index.html (one self-contained file), report.pdf, tables/ and figures/.
 
@@ -32,5 +35,6 @@ def command(
     from ..report import build_report
 
     delta = delta or (tables / "delta.csv" if (tables / "delta.csv").is_file() else None)
+    ladder = ladder or tables.parent / "ladder"
     build_report(study, tables, spring, references / "fe", decks, out, baseline_delta=delta, ladder_dir=ladder)
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

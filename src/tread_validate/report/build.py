@@ -12,8 +12,10 @@ from ..study import load_study
 from . import figures
 from .baseline import baseline_section
 from .cases import case_views
+from .claims import claims_table
 from .content import Item, Report, Section
-from .extra import ladder_section
+from .error_charts import heatmap, scatter
+from .extra import ladder_section, mesh_table
 from .figures import figure_items
 from .histories import HistoryStore, load_histories
 from .html import render
@@ -21,11 +23,12 @@ from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
 from .marks import Marks
 from .palette import looks
 from .pdf import write_pdf
-from .results import claims_table, differences_table, ensemble_table, table1
+from .results import ensemble_table
 from .route import route_items
 from .summary import CAVEAT, LEAD, summary
+from .table1 import differences_table, table1
 from .tables import read_tables
-from .widgets import browser, heatmap, scatter
+from .widgets import browser
 
 
 @dataclass(frozen=True)
@@ -107,7 +110,7 @@ def compose(study_path: Path, places: Places) -> Report:
     delta, moved = baseline_section(places.baseline_delta, marks)
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
-    results += [sensitivity] if sensitivity is not None else []
+    results += [table for table in (mesh_table(places.reference), sensitivity) if table is not None]
     sections = [
         Section("summary", "How far can the model be trusted?", (summary(tables, marks, moved),)),
         Section("results", "Results", tuple(results)),
@@ -126,7 +129,7 @@ def compose(study_path: Path, places: Places) -> Report:
         Section("material", "Compound and friction", figure_items(drawn.material())),
         Section("geometry", "Belt, rig and mesh", figure_items(drawn.geometry())),
         Section("route", "From raw data to model input", route_items(study, drawn)),
-        ladder_section(places.ladder, marks),
+        ladder_section(places.ladder, places.out / "figures", marks),
         inputs_section(tables, marks),
         provenance_section(tables),
     ]

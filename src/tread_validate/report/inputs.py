@@ -11,6 +11,12 @@ from .content import Cell, Column, Item, Paragraph, Row, Section, Table
 from .marks import Marks
 from .tables import Tables, number, records
 
+# endings of column names and the units they stand for; the longest match comes first
+UNITS = {
+    "percent_s_per_m": "% per m/s", "percent_per_degC": "% per °C", "N_s": "N s", "rad_s": "rad/s", "m_s": "m/s",
+    "percent": "%", "degC": "°C", "MPa": "MPa", "mm": "mm", "N": "N", "s": "s",
+}  # fmt: skip
+
 
 def inputs_section(tables: Tables, marks: Marks) -> Section:
     """Return the assumptions with their codes, and what the paper's other numbers are used for."""
@@ -154,8 +160,17 @@ def plain_table(key: str, title: str, frame: Any, marks: Marks, *, folded: bool 
         cells = []
         for name in names:
             value = number(record[name]) if numeric[name] else None
-            cells.append(Cell(wording.digits(value, 4), sort=value) if numeric[name] else Cell(str(record[name])))
+            text = wording.plain(value, 4) if numeric[name] else str(record[name]).replace("spring:", "")
+            cells.append(Cell(text, sort=value))
         rows.append(Row(tuple(cells), marks.of(record.get("assumed", ""))))
-    columns = tuple(Column(name.replace("_", " "), numeric=numeric[name], wide=not numeric[name]) for name in names)
+    columns = tuple(Column(*_title(name), numeric=numeric[name]) for name in names)
     caption = f"First {limit} of {len(frame)} rows." if len(frame) > limit else ""
     return Table(key, title, columns, tuple(rows), caption, with_marks="assumed" in frame.columns, folded=folded)
+
+
+def _title(name: str) -> tuple[str, str]:
+    """Split a column's name into words and the unit that it ends with."""
+    for ending, unit in UNITS.items():
+        if name.endswith(f"_{ending}"):
+            return name.removesuffix(f"_{ending}").replace("_", " ").capitalize(), unit
+    return name.replace("_", " ").capitalize(), ""

@@ -21,6 +21,7 @@ from ..files import write_bytes
 from .content import Cell, Column, Figures, Item, Paragraph, Report, Section, Table, Verdicts
 from .marks import in_words
 
+WIDEST_TABLE = 11  # columns
 LONGEST_TABLE = 260  # rows: the page and the CSV files hold the rest
 
 
@@ -74,6 +75,9 @@ def _items(item: Item, folder: Path) -> list[dict[str, Any]]:
         return [{"kind": "verdicts", "items": lines}]
     if isinstance(item, Figures):
         return [_figures(item, folder)]
+    if isinstance(item, Table) and len(item.columns) > WIDEST_TABLE:
+        words = f"{item.title}: {len(item.columns)} columns do not fit a page; see the HTML page or the CSV tables."
+        return [{"kind": "paragraph", "text": words, "tone": "mute", "marks": ""}]
     if isinstance(item, Table):
         return [_table(item)]
     return []

@@ -12,11 +12,12 @@ import pytest
 
 from tread_validate.report.baseline import baseline_section
 from tread_validate.report.cases import case_views, facets, factor_levels
+from tread_validate.report.claims import claims_table
 from tread_validate.report.content import Table
 from tread_validate.report.histories import HistoryStore, load_histories
 from tread_validate.report.marks import Marks
-from tread_validate.report.results import claims_table, table1
 from tread_validate.report.summary import summary
+from tread_validate.report.table1 import table1
 from tread_validate.report.tables import Tables, read_tables
 
 

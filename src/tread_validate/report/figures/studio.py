@@ -16,7 +16,7 @@ from ..cases import CaseView
 from ..content import Mark
 from ..marks import Marks
 from ..palette import Look
-from ..results import regression_sources
+from ..table1 import regression_sources
 from ..tables import Tables
 from . import contact, errors, forces, geometry, material, regressions
 from .style import Drawn
