@@ -18,6 +18,9 @@ def command(
     channel: Annotated[
         list[str] | None, typer.Option("--channel", help="NAME=COLUMN or NAME=Group/Channel; may be given again")
     ] = None,
+    invert: Annotated[
+        bool, typer.Option("--invert-tangential", help="the record counts force along the travel positive")
+    ] = False,
     case: Annotated[str, typer.Option("--case", help="id of the study's case that was measured")] = "",
     shape: Annotated[str, typer.Option("--shape", help="rectangle or parallelogram")] = "",
     temperature: Annotated[float | None, typer.Option("--temperature-degC")] = None,
@@ -26,14 +29,19 @@ def command(
     origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
     source: Annotated[str, typer.Option("--source", help="where the data come from, one line")] = "",
     figure: Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")] = None,
+    peaks_figure: Annotated[
+        Path | None, typer.Option("--peaks-figure", help="peaks of every record in the folder against speed (PNG)")
+    ] = None,
 ) -> None:
     """Cut a record into passes, remove drift and noise, and write their mean, range and peaks.
 
+    The folder's peaks.csv lists every record imported into it, with error bars, for `tread-validate regress`.
     Conditions not given are read from the record's ``# key: value`` lines or TDMS properties.
 
     Example: tread-validate import-rig reference_data/rig/synthetic_record.csv -o results/rig
     """
     import re
+    from dataclasses import replace
 
     from ..errors import InputError, one_line
     from ..reference.rig import CONDITIONS, write_rig
@@ -53,6 +61,8 @@ def command(
         raise InputError("--name", one_line(files_name, 60), "letters, digits, - _ and .")
     data = read_record(record, channels)
     kind, told = checked_origin(record, origin or data.comments.get("origin", ""), source)
+    if invert:
+        data = replace(data, tangential_force=-data.tangential_force)
     passes = cut_passes(data, cutoff)
     said = {
         "shape": shape or data.comments.get("shape", ""),
@@ -74,6 +84,13 @@ def command(
 
         mark = ", synthetic" if kind == "synthetic" else ""
         draw.save(figure, (11.0, 3.4), lambda canvas: draw.rig(passes, canvas, mark))
+    if peaks_figure is not None:
+        from ..reference.rig import load_rig, peak_rows
+        from . import laboratory_figures as draw
+
+        references = load_rig(output)
+        mark = ", synthetic" if any(reference.origin == "synthetic" for reference in references) else ""
+        draw.save(peaks_figure, (4.7, 3.4), lambda canvas: draw.rig_peaks(peak_rows(references), canvas, mark))
     spread = passes.peak_normal_force
     typer.echo(f"{kind} data: {told}")
     typer.echo(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -66,9 +67,14 @@ def material(route: MaterialRoute, figure: Figure, mark: str = "") -> None:
     f = route.fit
     residual.plot(f.angular_frequency, 100 * f.storage_residual, "o", ms=2.5, color=BLUE, label="E′")
     residual.plot(f.angular_frequency, 100 * f.loss_residual, "s", ms=2.5, mfc="none", color=VERMILION, label="E″")
+    if route.bands is not None:
+        b = route.bands
+        for band, color in ((b.storage_modulus, BLUE), (b.loss_modulus, VERMILION)):
+            low, high = band.lower / band.centre - 1.0, band.upper / band.centre - 1.0
+            residual.fill_between(b.angular_frequency, 100 * low, 100 * high, color=color, alpha=0.12, lw=0)
     residual.axhline(0.0, color=BLACK, lw=0.7)
     residual.set(xscale="log", xlabel="reduced angular frequency, rad/s", ylabel="fit less data, %")
-    residual.set_title(f"RMS: E′ {100 * f.storage_rms:.2f} %, E″ {100 * f.loss_rms:.2f} %", loc="left")
+    residual.set_title(f"RMS: E′ {100 * f.storage_rms:.2f} %, E″ {100 * f.loss_rms:.2f} %; 95 % bands", loc="left")
     residual.legend()
     carry = series.moduli > 1e-9 * series.instantaneous_modulus
     times, moduli = series.relaxation_times[carry], series.moduli[carry] / MPA
@@ -146,7 +152,7 @@ def rig(passes: RigPasses, figure: Figure, mark: str = "") -> None:
         axes.fill_between(passes.time * ms, forces.min(0), forces.max(0), color=color, alpha=0.3, lw=0, label="range")
         axes.plot(passes.time * ms, forces.mean(0), color=color, label=f"mean of {passes.count} passes")
         axes.set(xlabel="time from first touch, ms", ylabel=f"{name} force, N")
-        axes.legend(loc="lower center" if axes is normal else "upper right")
+        axes.legend(loc="center" if axes is normal else "upper right")
     normal.set_title(f"{passes.speed_rpm:.1f} rpm, low-pass {passes.cutoff:g} Hz{mark}", loc="left")
     values = passes.normal_force.max(axis=1)
     spread = passes.peak_normal_force
@@ -155,3 +161,29 @@ def rig(passes: RigPasses, figure: Figure, mark: str = "") -> None:
     peaks.errorbar([0.3], [spread.mean], yerr=[[below], [above]], fmt="s", color=BLUE, capsize=4)
     peaks.set(xlim=(-0.4, 0.7), xticks=[], ylabel="peak normal force, N", ylim=(0, 1.15 * spread.largest))
     peaks.set_title("passes; mean, min, max", loc="left")
+
+
+def rig_peaks(rows: list[dict[str, Any]], figure: Figure, mark: str = "") -> None:
+    """Draw peak normal force against speed, one line a set of shape, temperature and interference; least to largest."""
+    axes = figure.subplots()
+    sets = dict.fromkeys((row["shape"], row["temperature_degC"], row["interference_mm"]) for row in rows)
+    for k, key in enumerate(sets):
+        members = [row for row in rows if (row["shape"], row["temperature_degC"], row["interference_mm"]) == key]
+        speed, mean, least, largest = (
+            np.array([float(row[name]) for row in members])
+            for name in ("speed_m_s", "peak_normal_force_N", "peak_normal_force_min_N", "peak_normal_force_max_N")
+        )
+        label = f"{key[0]}, {key[1]} °C, {key[2]} mm"
+        axes.errorbar(
+            speed,
+            mean,
+            yerr=[mean - least, largest - mean],
+            fmt="o-",
+            capsize=3,
+            ms=4,
+            label=label,
+            color=COLOURS[k % 8],
+        )
+    axes.set(xlabel="surface speed, m/s", ylabel="peak normal force, N", ylim=(0, None))
+    axes.set_title(f"Mean, least and largest pass{mark}", loc="left")
+    axes.legend()

@@ -1,4 +1,4 @@
-"""Measured rig passes as references: one folder, three files a record."""
+"""Measured rig passes as references: three files a record, and one table of peaks for the folder."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from ..provenance import sha256_file
 from ..study import load_yaml
 from .rig_passes import RigPasses, Spread
 
+PEAKS = "peaks.csv"
 CONDITIONS = ("shape", "temperature_degC", "interference_mm", "speed_m_s")
 PEAK_COLUMNS = (
     "source", "case_id", *CONDITIONS, "passes", "peak_normal_force_N", "peak_normal_force_min_N",
@@ -82,7 +83,18 @@ def peak_row(passes: RigPasses, source: str, case_id: str, conditions: Mapping[s
     return row
 
 
-def peaks_csv(rows: list[Mapping[str, Any]]) -> str:
+def peak_rows(references: tuple[RigReference, ...]) -> list[dict[str, Any]]:
+    """Return the peak table's rows of imported records, by shape, temperature, interference and speed."""
+    rows = []
+    for reference in references:
+        record = reference.record
+        row = {"source": "rig", "case_id": record.get("case_id", ""), "passes": record.get("passes")}
+        row |= {key: record.get(key) for key in CONDITIONS} | dict(record.get("peaks") or {})
+        rows.append(row)
+    return sorted(rows, key=lambda row: (str(row[CONDITIONS[0]]), *(float(row[key]) for key in CONDITIONS[1:])))
+
+
+def peaks_csv(rows: list[dict[str, Any]]) -> str:
     """Return peak rows as CSV, in the columns that `tread-validate regress` reads and more."""
     lines = [",".join(PEAK_COLUMNS)]
     lines += [",".join(str(row.get(name, "")) for name in PEAK_COLUMNS) for row in rows]
@@ -99,14 +111,13 @@ def write_rig(
     conditions: Mapping[str, str | float],
     provenance: Mapping[str, str],
 ) -> tuple[Path, ...]:
-    """Write ``<name>.csv`` (mean history), ``<name>-passes.csv``, ``<name>-peaks.csv`` and ``<name>.yaml``."""
+    """Write ``<name>.csv`` (mean history), ``<name>-passes.csv``, ``<name>.yaml``; renew the folder's ``peaks.csv``."""
     base = Path(folder)
-    files = [base / f"{name}{ending}" for ending in (".csv", "-passes.csv", "-peaks.csv", ".yaml")]
+    files = [base / f"{name}{ending}" for ending in (".csv", "-passes.csv", ".yaml")]
     head = {"case_id": case_id, "producer": "rig", "origin": origin, **provenance}
     mean_history(passes, head).write_csv(files[0])
     write_text(files[1], passes_csv(passes))
     row = peak_row(passes, "rig", case_id, conditions)
-    write_text(files[2], peaks_csv([row]))
     lines = [
         f"name: {name}",
         f"origin: {origin}",
@@ -128,8 +139,9 @@ def write_rig(
         *(f"  {key}: {value}" for key, value in row.items() if key.endswith("_N")),
         *(f"{key}: {_quoted(value)}" for key, value in provenance.items()),
     ]
-    write_text(files[3], "\n".join(lines) + "\n")
-    return tuple(files)
+    write_text(files[2], "\n".join(lines) + "\n")
+    write_text(base / PEAKS, peaks_csv(peak_rows(load_rig(base))))
+    return (*files, base / PEAKS)
 
 
 def load_rig(folder: Path | str) -> tuple[RigReference, ...]:

@@ -12,6 +12,7 @@ from tread_validate.friction import read_friction
 from tread_validate.geometry.trace_file import read_belt
 from tread_validate.material import read_material
 from tread_validate.reference.rig import load_rig
+from tread_validate.reference.rig_synthetic import record_csv, synthetic_record
 
 VERBS = ("fit-prony", "fit-friction", "import-belt", "import-rig", "synthesize")
 
@@ -85,8 +86,24 @@ def test_record_becomes_a_reference_and_a_peak_table(data: Path, tmp_path: Path,
     assert run(["import-rig", record, "-o", str(tmp_path), "--figure", str(tmp_path / "rig.png")]) == 0
     (found,) = load_rig(tmp_path)
     assert found.origin == "synthetic"
-    ((peak,),) = read_peaks(tmp_path / "synthetic_record-peaks.csv").values()
+    ((peak,),) = read_peaks(tmp_path / "peaks.csv").values()
     assert peak.shape == "rectangle"
+
+
+def test_records_of_several_speeds_make_the_table_that_regress_reads(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Three records of one set in one folder: three rows with error bars, a slope over speed, and their picture."""
+    for rpm in (150.0, 300.0, 600.0):
+        record = tmp_path / f"rpm{rpm:.0f}.csv"
+        record.write_text(record_csv(synthetic_record(speed_rpm=rpm, revolutions=4)), encoding="utf-8")
+        picture = ["--peaks-figure", str(tmp_path / "peaks.png")]
+        assert run(["import-rig", str(record), "-o", str(tmp_path / "rig"), *picture]) == 0
+    ((*rows,),) = read_peaks(tmp_path / "rig" / "peaks.csv").values()
+    assert [row.speed for row in rows] == pytest.approx([1.571, 3.142, 6.283], rel=1e-3)
+    capsys.readouterr()
+    assert run(["regress", str(tmp_path / "rig" / "peaks.csv")]) == 0
+    assert "rig,rectangle,a_v,22 degC 0.2 mm,0" in capsys.readouterr().out.replace(",-0", ",0")
 
 
 @pytest.mark.parametrize(
