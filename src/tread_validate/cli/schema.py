@@ -1,4 +1,4 @@
-"""`tread-validate schema`: the JSON schema of a study file."""
+"""`tread-validate schema`: the JSON schema of a study, material or friction file."""
 
 from __future__ import annotations
 
@@ -9,16 +9,32 @@ import typer
 
 
 def command(
+    kind: Annotated[str, typer.Argument(help="study, material or friction")] = "study",
     output: Annotated[Path | None, typer.Option("-o", "--output", help="write to this file, not to the screen")] = None,
 ) -> None:
-    """Write the JSON schema of a study file, generated from the models.
+    """Write the JSON schema of a study, material or friction file, generated from the models.
 
     Example: tread-validate schema -o workflow/schemas/study.schema.json
     """
-    from ..files import write_text
-    from ..study.schema import study_schema
+    import json
 
-    text = study_schema()
+    from ..errors import InputError, one_line
+    from ..files import write_text
+
+    if kind == "study":
+        from ..study.schema import study_schema
+
+        text = study_schema()
+    elif kind == "material":
+        from ..material import material_schema
+
+        text = json.dumps(material_schema(), indent=2) + "\n"
+    elif kind == "friction":
+        from ..friction import friction_schema
+
+        text = json.dumps(friction_schema(), indent=2) + "\n"
+    else:
+        raise InputError("schema", one_line(kind, 40), "study, material or friction")
     if output is None:
         typer.echo(text, nl=False)
     else:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import jsonschema
 import pytest
+import yaml
 
 from tread_validate.cli.app import run
 from tread_validate.compare.peaks_file import read_peaks
@@ -29,6 +32,22 @@ def test_shipped_synthetic_data_are_what_the_command_makes(data: Path, root: Pat
     for name in ("material/synthetic_sweeps.csv", "friction/synthetic_tribometer.csv", "belt/synthetic_ridges.csv",
                  "rig/synthetic_record.csv"):  # fmt: skip
         assert (data / name).read_text("utf-8") == (root / "reference_data" / name).read_text("utf-8"), name
+
+
+@pytest.mark.parametrize(
+    ("kind", "file"),
+    [("material", "material/synthetic_material.yaml"), ("friction", "friction/synthetic_friction.yaml")],
+)
+def test_shipped_files_meet_the_schema_that_is_printed(
+    kind: str, file: str, root: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["schema", kind]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    data = yaml.safe_load((root / "reference_data" / file).read_text("utf-8"))
+    jsonschema.validate(data, schema)
+    data["surplus"] = 1
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(data, schema)
 
 
 @pytest.mark.parametrize("verb", VERBS)
