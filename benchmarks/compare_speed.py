@@ -11,8 +11,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-from tread_validate.compare import compare
-from tread_validate.compare.tables import compare_study, write_tables
+from tread_validate.compare import compare, compare_study, write_tables
 from tread_validate.history import History
 from tread_validate.spring import resolve_creep, run
 from tread_validate.study import load_study

@@ -5,9 +5,10 @@ from .ensemble import bias_and_scatter
 from .regression import regress
 from .rows import METRIC_COLUMNS, MetricRow, verdict
 from .scalars import Scalars, contact_window, scalars
-from .tables import Comparison, build_tables
+from .study_comparison import Comparison, compare_study
+from .tables import build_tables, write_tables
 
 __all__ = [
     "METRIC_COLUMNS", "Comparison", "MetricRow", "Scalars", "bias_and_scatter", "build_tables", "compare",
-    "contact_window", "empty_rows", "regress", "scalars", "verdict",
+    "compare_study", "contact_window", "empty_rows", "regress", "scalars", "verdict", "write_tables",
 ]  # fmt: skip

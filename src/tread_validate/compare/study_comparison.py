@@ -1,0 +1,197 @@
+"""Every run of a study against its reference, and the study against the paper."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..files import read_text
+from ..reference import load_published
+from ..study import Case, LoadedStudy
+from .claim import Claim, Evidence
+from .claims import published_claims
+from .coefficients import computed_regression, published_coefficients
+from .comparison import compare, empty_rows
+from .differences import Difference, differences
+from .ensemble import Ensemble, summarise
+from .regression import EXCLUDED_INTERFERENCES, Coefficient, Residual
+from .rig_peaks import MEASURED, measured_means, rig_peaks, rig_rows, rig_runs
+from .rows import MetricRow
+from .runs import Runs, engines, fe_runs, spring_runs
+from .sensitivity import Sensitivity, sensitivity
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All that the tables say, before it is text."""
+
+    study: LoadedStudy
+    cases: tuple[Case, ...]
+    sources: tuple[str, ...]
+    runs: Runs
+    rows: tuple[MetricRow, ...]
+    ensembles: tuple[Ensemble, ...]
+    coefficients: tuple[Coefficient, ...]
+    residuals: tuple[Residual, ...]
+    differences: tuple[Difference, ...]
+    claims: tuple[Claim, ...]
+    sensitivity: tuple[Sensitivity, ...]
+
+
+def compare_study(
+    loaded: LoadedStudy,
+    spring_dir: Path,
+    reference_dir: Path,
+    decks_dir: Path,
+    exclude: Sequence[float] = EXCLUDED_INTERFERENCES,
+) -> Comparison:
+    """Compare every run of a study with its reference, and the study with the paper."""
+    variants = loaded.model.spring.variants
+    cases = _resolved(loaded.cases())
+    runs = spring_runs(cases, spring_dir, variants)
+    sources = [f"spring:{variant}" for variant in variants]
+    references = []
+    for engine in engines(reference_dir, loaded.model.engine):
+        runs |= fe_runs(cases, reference_dir, engine, decks_dir)
+        references.append(f"fe:{engine}")
+    rig = rig_peaks(reference_dir, cases)
+    runs |= rig_runs(rig)
+    rows = _metric_rows(cases, runs, sources, references)
+    rows += rig_rows(cases, runs, [*sources, *references], rig)
+    published = {item.id: item for item in load_published(reference_dir)}
+    coefficients = list(published_coefficients(published))
+    residuals: list[Residual] = []
+    measured = [MEASURED] if measured_means(rig) else []
+    for source in (*measured, *references, *sources):
+        regression = computed_regression(cases, runs, source, exclude)
+        coefficients += regression.coefficients
+        residuals += regression.residuals
+    evidence = Evidence(
+        study=loaded,
+        cases=cases,
+        runs=runs,
+        published=published,
+        coefficients=tuple(coefficients),
+        free_rolling_creep=_free_rolling_creep(spring_dir, variants),
+        rig_peaks=measured_means(rig),
+    )
+    return Comparison(
+        study=loaded,
+        cases=cases,
+        sources=(*sources, *references),
+        runs=runs,
+        rows=tuple(rows),
+        ensembles=_ensembles(cases, rows, exclude),
+        coefficients=tuple(coefficients),
+        residuals=tuple(residuals),
+        differences=differences(coefficients),
+        claims=published_claims(evidence, [*sources, *references]),
+        sensitivity=_sensitivity(cases, runs, sources, references),
+    )
+
+
+def _resolved(cases: tuple[Case, ...]) -> tuple[Case, ...]:
+    """Give free-rolling cases the common creep ratio, which the spring model finds."""
+    if all(case.creep_ratio is not None for case in cases):
+        return cases
+    from ..spring import resolve_creep
+
+    return tuple(resolve_creep(cases))
+
+
+def _metric_rows(
+    cases: Sequence[Case], runs: Runs, sources: Sequence[str], references: Sequence[str]
+) -> list[MetricRow]:
+    rows: list[MetricRow] = []
+    for reference_source in references:
+        # a second engine (ABAQUS, say) is a reference of the study's own engine too
+        engine = [references[0]] if reference_source != references[0] else []
+        for predicted_source in (*sources, *engine):
+            for case in cases:
+                reference, predicted = runs[reference_source, case.case_id], runs[predicted_source, case.case_id]
+                assumed = "; ".join(case.assumed())
+                if reference.history is not None and predicted.history is not None:
+                    rows += compare(
+                        reference.history,
+                        predicted.history,
+                        case_id=case.case_id,
+                        reference_source=reference_source,
+                        predicted_source=predicted_source,
+                        uncertainty=reference.uncertainty,
+                        assumed=assumed,
+                    )
+                    continue
+                bad = reference if reference.history is None else predicted
+                rows += empty_rows(
+                    case.case_id,
+                    reference_source,
+                    predicted_source,
+                    bad.status,
+                    f"{bad.source}: {bad.note}",
+                    reference=reference.scalars,
+                    predicted=predicted.scalars,
+                    assumed=assumed,
+                )
+    return rows
+
+
+def _ensembles(cases: Sequence[Case], rows: Sequence[MetricRow], exclude: Sequence[float]) -> tuple[Ensemble, ...]:
+    groups = _groups(cases, exclude)
+    kinds: dict[tuple[str, str, str, str], list[MetricRow]] = {}
+    for row in rows:
+        kinds.setdefault((row.reference_source, row.predicted_source, row.quantity, row.metric), []).append(row)
+    found = []
+    for group, members in groups.items():
+        for of_kind in kinds.values():
+            inside = [row for row in of_kind if row.case_id in members]
+            if inside:
+                found.append(summarise(group, inside))
+    return tuple(found)
+
+
+def _groups(cases: Sequence[Case], exclude: Sequence[float]) -> dict[str, set[str]]:
+    """Return the groups of cases that are summed up; `published` is the paper's: the rig without 0.3 mm."""
+    rig = [case for case in cases if case.is_rig]
+    groups = {
+        "all": {case.case_id for case in cases},
+        "rig": {case.case_id for case in rig},
+        "belt": {case.case_id for case in cases if not case.is_rig},
+        "published": {
+            case.case_id for case in rig if not any(abs(1e3 * case.interference - left) < 1e-9 for left in exclude)
+        },
+    }
+    for shape in sorted({case.block.shape for case in rig}):
+        groups[shape] = {case.case_id for case in rig if case.block.shape == shape}
+    return {name: members for name, members in groups.items() if members}
+
+
+def _free_rolling_creep(spring_dir: Path, variants: Sequence[str]) -> dict[tuple[str, str], float]:
+    """Return each variant's own free-rolling creep ratios from its summary."""
+    found: dict[tuple[str, str], float] = {}
+    for variant in variants:
+        path = spring_dir / variant / "summary.csv"
+        if not path.is_file():
+            continue
+        lines = [line for line in read_text(path).splitlines() if not line.startswith("#")]
+        for row in csv.DictReader(lines):
+            value = row.get("free_rolling_creep_ratio") or ""
+            if value and row.get("case_id"):
+                found[f"spring:{variant}", row["case_id"]] = float(value)
+    return found
+
+
+def _sensitivity(
+    cases: Sequence[Case], runs: Runs, sources: Sequence[str], references: Sequence[str]
+) -> tuple[Sensitivity, ...]:
+    """Measure the scores' sensitivity on the last case that has both a reference and a prediction, per rig and belt."""
+    rows: list[Sensitivity] = []
+    for kind in (False, True):
+        for case in reversed([case for case in cases if case.is_rig == kind]):
+            reference = runs[references[0], case.case_id].history
+            predicted = runs[sources[0], case.case_id].history
+            if reference is not None and predicted is not None:
+                rows += sensitivity(reference, predicted, case.case_id)
+                break
+    return tuple(rows)
