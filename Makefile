@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 SNAKEMAKE := $(BIN)/snakemake --profile workflow/profiles/default --cores $(CORES) --config study=$(STUDY)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium chromium-driver poppler-utils
 
-.PHONY: help report test lint verify reference mesh-study bench clean
+.PHONY: help report test lint verify reference mesh-study bench docs clean
 
 help: ## Show this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -40,6 +40,11 @@ mesh-study: $(BIN)/.installed gfortran ## Three meshes of one belt and one rig c
 
 bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory
 	@for file in benchmarks/*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done
+
+docs: $(BIN)/.installed-dev report ## Build the guide, links checked: build/docs/index.html
+	@$(BIN)/python docs/generate.py
+	@$(BIN)/mkdocs build --strict --quiet
+	@echo "The guide: build/docs/index.html"
 
 clean: ## Remove what the pipeline made (not the virtual environment)
 	@rm -rf results reports/tables reports/figures reports/*.html reports/*.pdf .snakemake

@@ -39,6 +39,7 @@ VERBS = {
     "stimulus": "stimulus",
     "abaqus": "abaqus",
     "calculix": "calculix",
+    "engines": "engines",
     "references": "references",
     "stale": "stale",
     "mesh-error": "mesh_error",

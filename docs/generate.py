@@ -1,0 +1,144 @@
+"""Write the pages of the guide that come from the code and from the pipeline: docs/generated/.
+
+Usage: python docs/generate.py. Run by `make docs` after the report, whose tables and figures it takes.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+import sys
+from pathlib import Path
+
+from tread_validate.files import write_text
+from tread_validate.study.reference_page import study_reference
+
+ROOT = Path(__file__).resolve().parents[1]
+OUT = ROOT / "docs" / "generated"
+FIGURES = (
+    "rig-sketch", "belt-sketch", "moduli-surrogate", "friction-road", "belt-heights", "belt-curvature",
+    "rig-histories-22c-normal", "rig-histories-22c-tangential", "peaks-rectangle-22c", "peaks-parallelogram-22c",
+    "belt-histories-simplified-normal", "belt-histories-simplified-tangential", "coefficient-a-v",
+    "coefficient-a-theta",
+)  # fmt: skip
+NOT_MADE = "not made yet: run `make report`, then `make docs`"
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    """Return the rows of a table of the pipeline, none where it has not been made."""
+    path = ROOT / "results" / "tables" / name
+    if not path.is_file():
+        return []
+    with path.open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def table(columns: dict[str, str], items: list[dict[str, str]]) -> str:
+    """Return a Markdown table of some columns."""
+    if not items:
+        return NOT_MADE
+    lines = ["| " + " | ".join(columns.values()) + " |", "|" + "---|" * len(columns)]
+    lines += ["| " + " | ".join(item[key].replace("|", "\\|") for key in columns) + " |" for item in items]
+    return "\n".join(lines)
+
+
+def figure(name: str, caption: str) -> str:
+    """Return an image of the report, or words in its place."""
+    source = ROOT / "reports" / "figures" / f"{name}.png"
+    if not source.is_file():
+        return f"*{caption}: {NOT_MADE}.*"
+    shutil.copyfile(source, OUT / source.name)
+    return f"![{caption}]({source.name})\n\n*{caption}*"
+
+
+def walkthrough() -> str:
+    """Return the paper's study, step by step, with the pictures of the last report."""
+    template = (ROOT / "docs" / "walkthrough.in.md").read_text(encoding="utf-8")
+    for name in FIGURES:
+        marker = "{{" + name + ": "
+        while marker in template:
+            start = template.index(marker)
+            end = template.index("}}", start)
+            template = template[:start] + figure(name, template[start + len(marker) : end]) + template[end + 2 :]
+    return template
+
+
+def validation() -> str:
+    """Return the numbers of the last comparison."""
+    provenance = ROOT / "results" / "tables" / "provenance.json"
+    facts = json.loads(provenance.read_text(encoding="utf-8")) if provenance.is_file() else {}
+    ensemble = [row for row in rows("ensemble.csv") if row["quantity"] == "peak_normal_force" and row["group"] == "all"]
+    claims = [row for row in rows("claims.csv") if row["kind"] != "context"]
+    verdicts: dict[str, dict[str, int]] = {}
+    for row in claims:
+        source = row["source"] or "input"
+        verdicts.setdefault(source, {}).setdefault(row["verdict"], 0)
+        verdicts[source][row["verdict"]] += 1
+    counted = [
+        {"source": source, **{name: str(count.get(name, 0)) for name in ("agrees", "disagrees", "cannot tell")}}
+        for source, count in verdicts.items()
+    ]
+    coefficients = [row for row in rows("regression.csv") if row["set"] == "mean"]
+    return "\n\n".join(
+        [
+            "# Validation: the numbers of the last run",
+            "Written by `make docs` from `results/tables`; code commit "
+            f"{facts.get('commit', facts.get('code', {}).get('commit', 'unknown'))}. Verification, which asks whether"
+            " the equations are solved rightly, is another question: see the pages on the engine and the models.",
+            "## Peak normal force against the FE reference, all runs",
+            table(
+                {
+                    "predicted_source": "model",
+                    "reference_source": "reference",
+                    "compared": "runs compared",
+                    "cases": "of",
+                    "passed": "within tolerance",
+                    "mean_abs_error": "mean abs. error",
+                    "largest_abs_error": "largest",
+                    "status": "status",
+                },
+                ensemble,
+            ),
+            "## Speed and temperature coefficients",
+            table(
+                {
+                    "source": "source",
+                    "shape": "shape",
+                    "coefficient": "coefficient",
+                    "value": "value",
+                    "unit": "unit",
+                    "ci_low": "95 % from",
+                    "ci_high": "to",
+                    "status": "status",
+                },
+                coefficients,
+            ),
+            "## Published statements",
+            table(
+                {
+                    "source": "source",
+                    "agrees": "agrees",
+                    "disagrees": "disagrees",
+                    "cannot tell": "cannot tell",
+                },
+                counted,
+            ),
+            "Each statement with its number, and every assumed input behind it, is in the report.",
+        ]
+    )
+
+
+def main() -> int:
+    """Write the pages."""
+    shutil.rmtree(OUT, ignore_errors=True)
+    OUT.mkdir(parents=True)
+    write_text(OUT / "study_file.md", study_reference())
+    write_text(OUT / "walkthrough.md", walkthrough())
+    write_text(OUT / "validation.md", validation() + "\n")
+    shutil.copyfile(ROOT / "CHANGELOG.md", OUT / "changelog.md")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
