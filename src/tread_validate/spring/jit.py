@@ -18,7 +18,10 @@ from ..friction import kernel as friction_kernel
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
-KERNEL_FILES = ("inputs.py", "memory.py", "kinematics.py", "slip.py", "element.py", "assembly.py", "jit.py")
+KERNEL_FILES = (
+    "inputs.py", "memory.py", "kinematics.py", "slip.py", "element.py", "assembly.py", "jit.py",
+    "coupled/contact.py", "coupled/march.py",
+)  # fmt: skip
 
 
 @cache

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from ...friction import kinetic_kernel
+from ..jit import kernel
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -26,7 +26,7 @@ OVER = 1.3
 """Over-relaxation of free nodes: a fifth fewer sweeps; more does not help."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def solve_contact(
     stiffness: Singles,
     q: Array,
@@ -137,7 +137,7 @@ def solve_contact(
     return most_sweeps
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _local(stiffness: Singles, i: int, nx: float, ny: float, a: Array) -> None:
     """Turn the node's own 3 x 3 stiffness into axes (normal, along, across)."""
     j = 3 * i
@@ -154,7 +154,7 @@ def _local(stiffness: Singles, i: int, nx: float, ny: float, a: Array) -> None:
     a[2, 2] = stiffness[j + 2, j + 2]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _release(a: Array, f: Array, d: Array) -> None:
     """Change of q that frees the node of all force: a d = -f (Cholesky of a 3 x 3 matrix)."""
     l00 = math.sqrt(a[0, 0])
@@ -170,7 +170,7 @@ def _release(a: Array, f: Array, d: Array) -> None:
     d[0] = (y0 - l10 * d[1] - l20 * d[2]) / l00
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _slide(
     a: Array,
     f: Array,
@@ -238,7 +238,7 @@ def _slide(
     return True
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=True)
+@kernel(reorder=True)
 def _spread(stiffness: Singles, force: Array, i: int, dx: float, dy: float, dz: float) -> None:
     """Add the forces that a change of one node's q makes everywhere (rows of the symmetric matrix)."""
     flat = force.ravel()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from ..jit import kernel
 from .contact import FREE, SLIP, solve_contact
 
 Array = NDArray[np.float64]
@@ -15,7 +15,7 @@ Singles = NDArray[np.float32]
 Integers = NDArray[np.int64]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def march(
     time: Array,
     origin: Array,
@@ -73,6 +73,7 @@ def march(
     place = np.empty((n, 3))
     _positions(unloaded[0], w, origin[0], angle[0], stretch, place)
     decay = np.empty(terms)
+    ahead = np.empty(3)
     largest = 1e-3
     for k in range(1, steps):
         dt = time[k] - time[k - 1]
@@ -87,8 +88,20 @@ def march(
             relaxed += (moduli[j] * decay[j]) * memory[j]
         before = state.copy()
         for i in range(n):
+            for c in range(3):
+                ahead[c] = w[i, c] + rate[i, c] * dt
             tx, ty, tz, nx, ny = _carried(
-                i, place, unloaded[k, i], w[i], before[i], origin[k], cosine, sine, stretch, road_radius, road_speed, dt
+                place[i],
+                unloaded[k, i],
+                ahead,
+                before[i],
+                origin[k],
+                cosine,
+                sine,
+                stretch,
+                road_radius,
+                road_speed,
+                dt,
             )
             # into the block's frame, less the unloaded place, stretched: the displacement that the road imposes
             gx, gy = tx - origin[k, 0], ty - origin[k, 1]
@@ -135,7 +148,7 @@ def march(
     return force_out, w_out, state_out, sweeps
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _actual(w: float, factor: float) -> float:
     """Solve d (1 + factor d) = w for the compression d; where the face is drawn out, d = w."""
     if factor == 0.0 or w <= 0.0:
@@ -143,7 +156,7 @@ def _actual(w: float, factor: float) -> float:
     return 2.0 * w / (1.0 + math.sqrt(1.0 + 4.0 * factor * w))
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _positions(unloaded: Array, w: Array, origin: Array, angle: float, stretch: Array, place: Array) -> None:
     """Write the axle-frame positions of the face's nodes into `place`."""
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -156,9 +169,8 @@ def _positions(unloaded: Array, w: Array, origin: Array, angle: float, stretch: 
         place[i, 2] = unloaded[i, 2] + w[i, 2] / shear
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _carried(
-    i: int,
     place: Array,
     unloaded: Array,
     w: Array,
@@ -171,11 +183,12 @@ def _carried(
     road_speed: float,
     dt: float,
 ) -> tuple[float, float, float, float, float]:
-    """Return where the road carries node i to in a step (x, y, z), and the road's normal there (x, y).
+    """Return where the road carries a node from `place` in a step (x, y, z), and the road's normal there (x, y).
 
-    A node that was free moves with its mount until it touches, part of the step, and with the road for the rest.
+    A node that was free moves with its mount and its neighbours (`w`: where its displacement is heading) until it
+    touches, part of the step, and with the road for the rest.
     """
-    x, y, z = place[i, 0], place[i, 1], place[i, 2]
+    x, y, z = place[0], place[1], place[2]
     rest = 1.0
     if before == FREE:
         dy = _actual(w[1], stretch[0])
@@ -196,7 +209,7 @@ def _carried(
     return road_radius * nx, road_radius * (ny - 1.0), z, nx, ny
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _gap(x: float, y: float, road_radius: float) -> float:
     if math.isinf(road_radius):
         return y
