@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tread_validate.compare.ensemble import bias_and_scatter
 from tread_validate.compare.iso18571 import grade, iso18571
@@ -38,6 +40,26 @@ def test_sprague_geers_of_a_taller_and_later_sine() -> None:
     assert score.magnitude == pytest.approx(0.2, abs=1e-9)
     assert score.phase == pytest.approx(0.1, abs=1e-9)
     assert score.comprehensive == pytest.approx(math.sqrt(0.05), abs=1e-9)
+
+
+WAVES = st.lists(st.floats(-100.0, 100.0), min_size=4, max_size=4)
+
+
+@given(WAVES, WAVES, st.floats(0.1, 10.0))
+def test_sprague_geers_holds_its_bounds_for_all_waves(a: list[float], b: list[float], factor: float) -> None:
+    """P lies in [0, 1] and C is the length of (M, P); scaling the prediction by f makes 1 + M f times as large and
+    leaves P alone (arccos near 1 loses half the digits: 1e-6).
+    """
+    modes = np.array([np.sin((k + 1) * np.pi * PERIOD[::50]) for k in range(4)])
+    reference, predicted = np.array(a) @ modes, np.array(b) @ modes
+    if min(np.max(np.abs(reference)), np.max(np.abs(predicted))) < 1e-3:
+        return
+    time = PERIOD[::50]
+    one, other = sprague_geers(time, reference, predicted), sprague_geers(time, reference, factor * predicted)
+    assert 0.0 <= one.phase <= 1.0
+    assert one.comprehensive == pytest.approx(math.hypot(one.magnitude, one.phase), rel=1e-12)
+    assert other.magnitude + 1.0 == pytest.approx(factor * (one.magnitude + 1.0), rel=1e-9)
+    assert other.phase == pytest.approx(one.phase, abs=1e-6)
 
 
 def test_relative_rms_of_a_ten_per_cent_taller_sine_is_a_tenth_of_the_sine_s_own() -> None:

@@ -113,5 +113,33 @@ def load_fe(folder: Path | str, engine: str, case_id: str, deck_digest: str | No
     return Reference(case_id, engine, "current", "", history, record, digest)
 
 
+def validate_store(folder: Path | str) -> tuple[str, ...]:
+    """Check every run of every engine: a record for each history, a history for each record, the right checksum.
+
+    Returns ``fe/<engine>: <n> runs`` for each engine. Raises `InputError` for the first run that is corrupt. Further
+    tables of a run (``<case_id>_face.csv``) carry its name and need no record of their own.
+    """
+    found = []
+    store = Path(folder) / "fe"
+    for engine in sorted(path for path in store.iterdir() if path.is_dir()) if store.is_dir() else ():
+        records = {path.stem for path in engine.glob("*.yaml")}
+        histories = {path.stem for path in engine.glob("*.csv")}
+        if engine.name == "mesh" or not histories:
+            continue
+        orphans = sorted(
+            name for name in histories - records if not any(name.startswith(f"{record}_") for record in records)
+        )
+        if orphans:
+            raise InputError(
+                engine / f"{orphans[0]}.csv", "a history without its record", f"{orphans[0]}.yaml beside it"
+            )
+        for case_id in sorted(records):
+            reference = load_fe(folder, engine.name, case_id, None)
+            if reference.status == "corrupt":
+                raise InputError(engine / f"{case_id}.yaml", reference.reason, "a run that can be trusted")
+        found.append(f"fe/{engine.name}: {len(records)} runs")
+    return tuple(found)
+
+
 def _is_error(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and value >= 0

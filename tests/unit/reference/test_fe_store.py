@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 import yaml
 
+from tread_validate.errors import InputError
 from tread_validate.history import History
 from tread_validate.provenance import sha256_file
-from tread_validate.reference import fe_path, load_fe
+from tread_validate.reference import fe_path, load_fe, validate_store
 
 DIGEST = "d" * 64
 
@@ -92,3 +93,19 @@ def test_the_mesh_error_is_read_where_it_is_a_number(value: Any, expected: Any, 
     """A number for all forces or numbers by quantity; anything else counts as not known."""
     write_record(fe_path(store, "embedded", "case-a"), {"mesh_error": value})
     assert load_fe(store, "embedded", "case-a", DIGEST).uncertainty() == expected
+
+
+def test_a_store_is_valid_when_every_history_has_its_record(store: Path) -> None:
+    """One run and a further table of it: valid. A history without a record, a wrong checksum: refused by name."""
+    path = fe_path(store, "embedded", "case-a")
+    path.with_name("case-a_face.csv").write_text("x_m,pressure_Pa\n0,1\n", encoding="utf-8")
+    assert validate_store(store) == ("fe/embedded: 1 runs",)
+    orphan = path.with_name("case-b.csv")
+    orphan.write_bytes(path.read_bytes())
+    with pytest.raises(InputError, match=r"case-b\.csv: got a history without its record"):
+        validate_store(store)
+    orphan.unlink()
+    write_record(path, {"history_sha256": "0" * 64})
+    with pytest.raises(InputError, match="checksum"):
+        validate_store(store)
+    assert validate_store(store / "nothing here") == ()
