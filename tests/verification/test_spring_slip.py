@@ -92,12 +92,34 @@ def test_lumped_mass_tends_to_the_massless_limit(spring_case: Build) -> None:
 def test_no_slip_can_start_below_a_kinetic_coefficient_that_exceeds_the_static_one(spring_case: Build) -> None:
     """Friction that would be larger in slip than the force that starts it holds the element: the limit is the larger.
 
-    The two laws then give the same history, bit for bit.
+    The two laws then give the same history but for the mass's own inertia on the arcs, m V1' (60 Pa beside 0.4 MPa),
+    which counts in the one and not in the other: 1e-3 of the peak.
     """
-    low = run(spring_case(friction=(0.2, 0.6)))
-    high = run(spring_case(friction=(0.6, 0.6)))
-    assert np.array_equal(low.normal_force, high.normal_force)
-    assert np.array_equal(low.tangential_force, high.tangential_force)
+    low = run(spring_case(friction=(0.2, 0.6), creep_ratio=0.01))
+    high = run(spring_case(friction=(0.6, 0.6), creep_ratio=0.01))
+    assert high.slipping_fraction.max() > 0.5
+    peak = high.normal_force.max()
+    assert low.normal_force == pytest.approx(high.normal_force, abs=1e-3 * peak)
+    assert low.tangential_force == pytest.approx(high.tangential_force, abs=1e-3 * peak)
+
+
+def test_slip_turns_round_where_the_path_bends_and_does_not_depend_on_the_step(spring_case: Build) -> None:
+    """An element that slips as it comes on to the flat finds the road going the other way at once.
+
+    Its sticking rate jumps from below to above lambda' at the bend; the net impulse of a pass with many such elements
+    changes by less than 1e-3 of itself with the step (a solver that stops the element there is off by 4e-3).
+    """
+    changes = {
+        "friction": (0.3, 0.3),
+        "interference": 7.5e-5,
+        "temperature": 30.0,
+        "creep_ratio": 0.0017,
+        "speed": 18.0,
+    }
+    coarse, fine = (
+        prepare(spring_case(step_fraction=part, **changes)).net_shear_impulse(0.0017) for part in (0.5, 0.125)
+    )
+    assert coarse == pytest.approx(fine, rel=1e-3)
 
 
 @pytest.mark.parametrize("creep_ratio", [-0.08, 0.08])

@@ -30,6 +30,9 @@ COLUMNS = 16
 
 STICK, SLIP, GONE = 0, 1, 2
 MOST_EVENTS = 12
+"""Changes between stick and slip in one node step; after that many an element sticks until the next node."""
+JUMP = 1e-6
+"""Slip speed (m/s) left by a jump of the path's curvature that is no zero crossing."""
 
 
 @kernel(reorder=True)
@@ -60,6 +63,14 @@ def _accumulate(integrals: Array, dt: float, p0: float, q0: float, p1: float, q1
     for j in range(4):
         integrals[4 + j] += dt * integrals[j] + dt * dt * (start[j] / 3.0 + end[j] / 6.0)
         integrals[j] += 0.5 * dt * (start[j] + end[j])
+
+
+@kernel()
+def _stick_acceleration(motion: Motion, arc: float, c: float, dt: float) -> float:
+    """Return the acceleration of lambda while C sticks at `c` (m/s2), from the next `dt` seconds."""
+    along = motion.road_speed * (motion.road_curvature if motion.road_curvature > 0.0 else 1.0)
+    now = sticking(motion, foot(motion, arc), c)[3]
+    return (sticking(motion, foot(motion, arc + motion.speed * dt), c + along * dt)[3] - now) / dt
 
 
 @kernel()
@@ -142,10 +153,7 @@ def run_element(
         last_chance = level == LEVELS - 1
         was_slipping = 1.0 if mode == SLIP else 0.0
         if mode == STICK:
-            c_new = (
-                c
-                + (motion.road_speed * motion.road_curvature if motion.road_curvature > 0.0 else motion.road_speed) * dt
-            )
+            c_new = c + motion.road_speed * (motion.road_curvature if motion.road_curvature > 0.0 else 1.0) * dt
             delta_new, lag_new, delta_rate, lag_rate_new = sticking(motion, at, c_new)
             u_new, u_rate_new = height - delta_new, -delta_rate
             p_new = modulus * u_new + _remember(weights[0], radial, u_rate, u_rate_new, u_new - u, fresh_radial)
@@ -157,16 +165,18 @@ def run_element(
             slip_new = 0.0
             released = not p_new > 0.0
             breaks = False
+            push = q_new
             if not released and abs(q_new) > grip.static_coefficient * p_new:
-                # where the law's kinetic coefficient at rest exceeds the static one, no slip can start below it
-                breaks = abs(q_new) > kinetic(grip, p_new, 0.0) * p_new
+                # what friction must give for C to stay on the road; no slip starts that the law in slip would stop
+                push = q_new + mass * _stick_acceleration(motion, arc, c_new, dt_tick)
+                breaks = abs(push) > kinetic(grip, p_new, 0.0) * p_new
             if (released or breaks) and not last_chance and events < MOST_EVENTS:
                 level += 1
                 continue
             if released:
                 mode = GONE
             elif breaks and events < MOST_EVENTS:
-                mode, direction = SLIP, 1.0 if q_new > 0.0 else -1.0
+                mode, direction = SLIP, 1.0 if push > 0.0 else -1.0
                 events += 1
             grows = True
         else:
@@ -218,14 +228,18 @@ def run_element(
                 mode = GONE
             elif ends:
                 events += 1
-                limit = max(grip.static_coefficient, kinetic(grip, p_new, 0.0)) * p_new
-                if abs(q_new) <= limit or events >= MOST_EVENTS:
+                past_corner = corner < corners.size and tick + ticks >= corners[corner]
+                push = q_new + mass * _stick_acceleration(motion, arc, c_new, dt_tick)
+                held = abs(q_new) <= grip.static_coefficient * p_new or abs(push) <= kinetic(grip, p_new, 0.0) * p_new
+                if past_corner and abs(slip_new) > JUMP:
+                    # the sticking rate has jumped past lambda': the element slips the other way, it does not stop
+                    direction, slip_new = -direction, -slip_new
+                elif held or events >= MOST_EVENTS:
                     mode = STICK
                     _d, _l, delta_rate, lag_rate_new = sticking(motion, at, c_new)
-                    u_rate_new = -delta_rate
+                    u_rate_new, slip_new = -delta_rate, 0.0
                 else:
-                    direction = -direction
-                slip_new = 0.0
+                    direction, slip_new = 1.0 if push > 0.0 else -1.0, 0.0
             grows = error < 0.25 * tolerance
         if mode == GONE:
             # the force reaches zero within this last sub-step
