@@ -267,13 +267,34 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
         for i in range(n):
             worst = min(worst, w[(_I + 6) * n + i])
         # long-term strain, then the Prony terms: rows 0-4 deviator, row 5 volume
+        same = True
+        for t in range(terms):
+            same = same and gain[k, t, 0] == gain[k, t, 1]
         for c in range(6):
             ratio = elastic[k, 2] if c < 5 else elastic[k, 3]
             for i in range(n):
                 e = w[(_T + STATE_STRAIN + c) * n + i] + w[(_D + c) * n + i]
                 w[(_T + STATE_STRAIN + c) * n + i] = e
                 w[(_S + c) * n + i] = ratio * e
-        for t in range(terms):
+        t = 0
+        while t + 4 <= terms and same:
+            # four terms at a time: the strain increment and the sum pass through memory once
+            hb = (b * terms + t) * 6 * n
+            fade0, fade1, fade2, fade3 = decay[k, t], decay[k, t + 1], decay[k, t + 2], decay[k, t + 3]
+            grow0, grow1, grow2, grow3 = gain[k, t, 0], gain[k, t + 1, 0], gain[k, t + 2, 0], gain[k, t + 3, 0]
+            for i in range(6 * n):
+                d = w[_D * n + i]
+                q0 = fade0 * h1[hb + i] + grow0 * d
+                q1 = fade1 * h1[hb + 6 * n + i] + grow1 * d
+                q2 = fade2 * h1[hb + 12 * n + i] + grow2 * d
+                q3 = fade3 * h1[hb + 18 * n + i] + grow3 * d
+                h1[hb + i] = q0
+                h1[hb + 6 * n + i] = q1
+                h1[hb + 12 * n + i] = q2
+                h1[hb + 18 * n + i] = q3
+                w[_S * n + i] += (q0 + q1) + (q2 + q3)
+            t += 4
+        while t < terms:
             hb = (b * terms + t) * 6 * n
             fade = decay[k, t]
             grow = gain[k, t, 0]
@@ -286,6 +307,7 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 q = fade * h1[hb + 5 * n + i] + grow * w[(_D + 5) * n + i]
                 h1[hb + 5 * n + i] = q
                 w[(_S + 5) * n + i] += q
+            t += 1
         # stress in the rotated frame, bulk viscosity, first Piola-Kirchhoff stress times volume
         shear = elastic[k, 0]
         bulk = elastic[k, 1]
