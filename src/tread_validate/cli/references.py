@@ -12,15 +12,16 @@ def command(
     folder: Annotated[Path, typer.Argument(help="folder with datapackage.yaml")],
     output: Annotated[Path | None, typer.Option("-o", "--output", help="write the list of tables to this file")] = None,
 ) -> None:
-    """Check every reference table against its schema and checksum, and every FE run against its record.
+    """Check every reference table against its schema and checksum, and list FE runs that do not fit their records.
 
     Example: tread-validate references reference_data
     """
     from ..files import write_text
-    from ..reference import validate_package, validate_store
+    from ..reference import check_store, validate_package
 
-    checked = (*validate_package(folder), *validate_store(folder))
-    lines = "".join(f"{name}: valid\n" for name in checked)
+    checked = [(name, "valid") for name in validate_package(folder)]
+    checked += check_store(folder)
+    lines = "".join(f"{name}: {state}\n" for name, state in checked)
     if output is not None:
         write_text(output, lines)
     typer.echo(lines, nl=False)

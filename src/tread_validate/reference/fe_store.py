@@ -113,31 +113,26 @@ def load_fe(folder: Path | str, engine: str, case_id: str, deck_digest: str | No
     return Reference(case_id, engine, "current", "", history, record, digest)
 
 
-def validate_store(folder: Path | str) -> tuple[str, ...]:
+def check_store(folder: Path | str) -> tuple[tuple[str, str], ...]:
     """Check every run of every engine: a record for each history, a history for each record, the right checksum.
 
-    Returns ``fe/<engine>: <n> runs`` for each engine. Raises `InputError` for the first run that is corrupt. Further
-    tables of a run (``<case_id>_face.csv``) carry its name and need no record of their own.
+    Returns (``fe/<engine>``, ``<n> runs``) for each engine and (``fe/<engine>/<case_id>``, reason) for each run that is
+    corrupt; nothing is raised, because a corrupt run has rows of its own in the comparison. Further tables of a run
+    (``<case_id>_face.csv``) carry its name and need no record of their own.
     """
     found = []
     store = Path(folder) / "fe"
     for engine in sorted(path for path in store.iterdir() if path.is_dir()) if store.is_dir() else ():
         records = {path.stem for path in engine.glob("*.yaml")}
         histories = {path.stem for path in engine.glob("*.csv")}
-        if engine.name == "mesh" or not histories:
+        if not histories:
             continue
-        orphans = sorted(
-            name for name in histories - records if not any(name.startswith(f"{record}_") for record in records)
-        )
-        if orphans:
-            raise InputError(
-                engine / f"{orphans[0]}.csv", "a history without its record", f"{orphans[0]}.yaml beside it"
-            )
-        for case_id in sorted(records):
+        found.append((f"fe/{engine.name}", f"{len(records)} runs"))
+        companions = {name for name in histories if any(name.startswith(f"{record}_") for record in records)}
+        for case_id in sorted((records | histories) - companions):
             reference = load_fe(folder, engine.name, case_id, None)
             if reference.status == "corrupt":
-                raise InputError(engine / f"{case_id}.yaml", reference.reason, "a run that can be trusted")
-        found.append(f"fe/{engine.name}: {len(records)} runs")
+                found.append((f"fe/{engine.name}/{case_id}", f"corrupt, {reference.reason}"))
     return tuple(found)
 
 
