@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -78,5 +79,6 @@ def _iso_class() -> Any:
 
     for kernel in (cost._calc_cumsum_matrix_jit, backtrack._get_local_path, backtrack._backtrack_jit):
         if not kernel.signatures:
-            kernel.enable_caching()
+            with contextlib.suppress(RuntimeError):  # nowhere to keep compiled code: compile each time
+                kernel.enable_caching()
     return ISO18571
