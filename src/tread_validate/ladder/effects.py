@@ -73,11 +73,13 @@ def elastic(case: Case) -> PronySeries:
     return PronySeries(modulus, np.zeros(1), np.ones(1), case.temperature)
 
 
-def effect_rows(cases: Sequence[Case]) -> list[dict[str, Any]]:
-    """Return the effects on each case (creep ratios known); the rows' columns are `COLUMNS`."""
+def effect_rows(cases: Sequence[Case], only: Sequence[str] = ()) -> list[dict[str, Any]]:
+    """Return the effects (or those named) on each case, creep ratios known; the rows' columns are `COLUMNS`."""
     rows = []
     for case in cases:
         for effect, before, after, change in _effects(case):
+            if only and effect not in only:
+                continue
             first, second = change()
             entries = (
                 case.case_id, effect, before, after, 100.0 * (second.normal / first.normal - 1.0),

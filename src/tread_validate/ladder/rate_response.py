@@ -66,6 +66,10 @@ class RigTable:
     temperatures: tuple[float, ...]
     basis: Array
 
+    def peaks(self, moduli: Array) -> Array:
+        """Return peak forces (temperatures, interferences, speeds) in N for moduli in Pa."""
+        return np.asarray((self.basis @ moduli).max(axis=-1))
+
     def coefficients(self, moduli: Array) -> Coefficients:
         """Return a_v and a_theta of every set, as in Table 1, for moduli (terms + 1,), the elastic one last.
 
