@@ -173,15 +173,13 @@ def _marks(record: RigRecord) -> Array:
         middle, tenth = 0.5 * (low + high), 0.1 * (high - low)
         if high - low < 0.2:
             raise InputError(record.source, f"a trigger between {low:.3g} and {high:.3g} V", "pulses of 0.2 V or more")
-        marks, armed = [], bool(record.trigger[0] < middle)
-        for i in range(1, record.trigger.size):
-            before, after = record.trigger[i - 1], record.trigger[i]
-            if armed and after >= middle:
-                marks.append((i - 1 + (middle - before) / (after - before)) / rate)
-                armed = False
-            elif not armed and after < middle - tenth:
-                armed = True
-        found = np.array(marks)
+        # +1 above the middle, -1 a tenth below it, in between whatever it was before: noise on a flank counts once
+        known = np.where(record.trigger >= middle, 1, np.where(record.trigger < middle - tenth, -1, 0))
+        last = np.maximum.accumulate(np.where(known != 0, np.arange(known.size), 0))
+        state = known[last]
+        rises = np.flatnonzero((state[:-1] < 0) & (state[1:] > 0))
+        before, after = record.trigger[rises], record.trigger[rises + 1]
+        found = (rises + (middle - before) / (after - before)) / rate
     else:
         assert record.wheel_angle is not None
         angle = np.unwrap(record.wheel_angle)
