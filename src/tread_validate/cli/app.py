@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -13,6 +14,9 @@ from typing import Any
 import typer
 
 from ..errors import CheckFailedError, EngineError, InputError, TreadValidateError, one_line
+
+# every matrix here is small: threads of the linear algebra library would only wait for each other
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_ENGINE = 0, 1, 2, 3
 
