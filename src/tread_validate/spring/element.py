@@ -58,11 +58,15 @@ def _fading(weights: Array, memory: Array) -> float:
 @kernel()
 def _accumulate(integrals: Array, dt: float, p0: float, q0: float, p1: float, q1: float, slips: float) -> None:
     """Add one sub-step with linear p and q to the integrals and their integrals."""
-    start = (p0, q0, 1.0, slips)
-    end = (p1, q1, 1.0, slips)
-    for j in range(4):
-        integrals[4 + j] += dt * integrals[j] + dt * dt * (start[j] / 3.0 + end[j] / 6.0)
-        integrals[j] += 0.5 * dt * (start[j] + end[j])
+    half, third, sixth = 0.5 * dt, dt * dt / 3.0, dt * dt / 6.0
+    integrals[4] += dt * integrals[0] + third * p0 + sixth * p1
+    integrals[5] += dt * integrals[1] + third * q0 + sixth * q1
+    integrals[6] += dt * integrals[2] + half * dt
+    integrals[7] += dt * integrals[3] + half * dt * slips
+    integrals[0] += half * (p0 + p1)
+    integrals[1] += half * (q0 + q1)
+    integrals[2] += dt
+    integrals[3] += dt * slips
 
 
 @kernel()
@@ -260,7 +264,8 @@ def run_element(
             k = tick // TICKS
             events = 0
             record[k, PRESSURE], record[k, SHEAR] = p, q
-            record[k, INTEGRALS : INTEGRALS + 8] = integrals
+            for j in range(8):
+                record[k, INTEGRALS + j] = integrals[j]
             if mode != GONE:
                 record[k, TOUCHING], record[k, SLIPPING] = 1.0, 1.0 if mode == SLIP else 0.0
                 record[k, DELTA], record[k, LAG], record[k, SLIP_SPEED] = delta, lag, slip_speed

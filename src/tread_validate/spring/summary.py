@@ -5,12 +5,14 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 
 from ..errors import InputError
 from ..history import History
 from ..study import Case
+from .block_pass import BlockPass
 from .creep import root_of
 from .variants import pass_of
 
@@ -25,13 +27,13 @@ def summary_row(case: Case, history: History, variant: str) -> dict[str, str]:
     """Return one row of the summary.
 
     ``free_rolling_creep_ratio`` is the variant's own root, unrounded, whatever creep ratio the case ran at; empty
-    where there is none.
+    where there is none, and for variants whose passes are too slow to search with.
     """
     block_pass = pass_of(case, variant)
-    try:
-        root = f"{root_of(block_pass, case.case_id):.8f}"
-    except InputError:
-        root = ""
+    root = ""
+    if isinstance(block_pass, BlockPass):
+        with suppress(InputError):
+            root = f"{root_of(block_pass, case.case_id):.8f}"
     touching = np.flatnonzero(history.normal_force > 0.0)
     return {
         "case_id": case.case_id,
