@@ -65,7 +65,7 @@ def read_belt(path: Path | str) -> dict[str, tuple[Array, Array]]:
             raise InputError(where, "keys missing", "x_mm and height_mm")
         try:
             x, height = (np.array(trace[key], dtype=np.float64) * MM for key in ("x_mm", "height_mm"))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise InputError(where, "values that are not numbers", "lists of numbers") from None
         if x.ndim != 1 or x.shape != height.shape or x.size < 10:
             raise InputError(
