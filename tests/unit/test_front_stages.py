@@ -76,3 +76,16 @@ def test_table_law_is_read_by_a_study_and_its_data_are_shown(altered_study: Call
     assert data is not None
     assert built.table.shape == (data.pressures.size, data.speeds.size) == (5, 8)
     assert measured_table(study.model.friction_laws["steel"], study.root) is None
+
+
+def test_shipped_laboratory_study_runs_from_raw_files(root: Path) -> None:
+    """`config/laboratory.yaml` names sweeps, a table and ridges; every case runs and carries a force.
+
+    The rig's peak at 22 degC is above that at 45 degC: cooler rubber is stiffer. All inputs are marked.
+    """
+    cases = load_study(root / "config" / "laboratory.yaml").cases()
+    peaks = {case.case_id: run(case).normal_force.max() for case in cases if not case.free_rolling}
+    assert len(peaks) == 5
+    rig = {c.temperature: peaks[c.case_id] for c in cases if c.is_rig and c.speed_rpm == 300.0}
+    assert rig[22.0] > rig[45.0] > 10.0
+    assert all(any("synthetic" in mark for mark in case.assumed()) for case in cases)
