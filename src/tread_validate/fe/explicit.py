@@ -76,7 +76,7 @@ class Simulation:
     def __init__(self, model: Model, routine: UserRoutine | None = None, threads: int = 1) -> None:
         self.model = model
         self.routine = routine
-        self.threads = threads
+        self.threads = min(threads, numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
         self.duration = sum(step.period for step in model.steps)
         self.blocks: Blocks = pack(model, self.duration)
         self._scale_masses()
@@ -171,7 +171,6 @@ class Simulation:
             The friction routine returned a force out of range.
         """
         begun = clock_module.monotonic()
-        numba.set_num_threads(min(self.threads, numba.config.NUMBA_NUM_THREADS))  # type: ignore[attr-defined]
         for number, step in enumerate(self.model.steps):
             self.samples = Samples()
             self._begin(number, step)
@@ -251,6 +250,7 @@ class Simulation:
             raise self._friction_error(int(fault[1]), int(fault[2]))
 
     def _kernel(self, count: int, dt: float, fault: NDArray[np.int64]) -> None:
+        numba.set_num_threads(self.threads)
         advance(
             count, dt, self.clock, self.elements, self.nodes, self.amplitudes, self.prescribed, self.loads, self.bodies,
             tuple(data.pair for data in self.pairs), self.work, fault,

@@ -73,7 +73,7 @@ def test_thrown_block_slows_down_as_its_equation_of_motion_says(
     exact = speed - mu0 * impulse
     if slope:
         exact = (speed + mu0 / slope) * np.exp(-slope * impulse) - mu0 / slope
-    assert speed - mean == pytest.approx(speed - exact, rel=2e-3 if slope else 1e-3)
+    assert speed - mean == pytest.approx(speed - exact, rel=1e-3)
     assert mean == pytest.approx(exact, rel=1e-3)
 
 
