@@ -10,6 +10,7 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ..files import atomic_path
 
@@ -32,31 +33,39 @@ Rows = Sequence[Mapping[str, Any]]
 
 
 def pareto_figure(rows: Rows, meshes: Rows, path: Path) -> None:
-    """Draw mean error of the peak normal force against the time of a pass, rig filled and belt open."""
+    """Draw the error of the peak normal force and the score of the tangential force against the time of a pass."""
     with _styled():
-        figure, axes = _panel()
+        figure = Figure(figsize=(8.6, 4.2), layout="constrained")
+        FigureCanvasAgg(figure)
+        _leave_room(figure)
+        left, right = figure.subplots(1, 2)
         for row in rows:
             error = row["mean_abs_peak_normal_force_error"]
             if row["group"] == "all" or error is None:
                 continue
             color, marker = STYLES[row["rung"]]
-            filled = row["group"] == "rig"
-            axes.plot(
-                row["seconds_per_pass"], 100.0 * error, marker, color=color, ms=7,
-                mfc=color if filled else "white", label=f"{row['rung']}, {row['group']}", ls="none",
-            )  # fmt: skip
+            look = {
+                "color": color, "ms": 7, "ls": "none", "label": f"{row['rung']}, {row['group']}",
+                "mfc": color if row["group"] == "rig" else "white",
+            }  # fmt: skip
+            left.plot(row["seconds_per_pass"], 100.0 * error, marker, **look)
+            right.plot(row["seconds_per_pass"], row["mean_iso18571_tangential"], marker, **look)
         color, marker = STYLES["fe"]
         for row in meshes:
             if row["wall_time_s"] is None or row["peak_normal_force_error"] == 0.0:
                 continue
             filled = row["case_id"].startswith("rig")
             place = row["wall_time_s"], max(100.0 * abs(row["peak_normal_force_error"]), 0.02)
-            axes.plot(*place, marker, color=color, ms=8, mfc=color if filled else "white", ls="none")
-            axes.annotate(f"FE {row['element_size_mm']:g} mm", place, textcoords="offset points", xytext=(5, 5), size=7)
-        axes.set(xscale="log", yscale="log", xlabel="time of one pass on one core, s")
-        axes.set_ylabel("mean |error| of the peak normal force, %")
-        axes.set_title("Error against the FE runs (FE meshes: against their own limit)", loc="left")
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2)
+            left.plot(*place, marker, color=color, ms=8, mfc=color if filled else "white", ls="none")
+            left.annotate(f"FE {row['element_size_mm']:g} mm", place, textcoords="offset points", xytext=(5, 5), size=7)
+        left.set(xscale="log", yscale="log", xlabel="processor time of one pass, s")
+        left.set_ylabel("mean |error| of the peak normal force, %")
+        left.set_title("Normal force, against the FE runs\n(FE meshes: against their own limit)", loc="left")
+        right.set(xscale="log", ylim=(0.0, 1.02), xlabel="processor time of one pass, s")
+        right.set_ylabel("mean ISO/TS 18571 score")
+        right.set_title("Tangential force history, against the FE runs\n(1 is perfect)", loc="left")
+        figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+        _mark(figure, rows)
         _save(figure, path)
 
 
@@ -70,6 +79,7 @@ def sobol_figure(rows: Rows, path: Path) -> None:
         lines = -(-len(panels) // columns)
         figure = Figure(figsize=(4.6 * columns, 0.5 + 2.6 * lines), layout="constrained")
         FigureCanvasAgg(figure)
+        _leave_room(figure)
         for index, (run, quantity) in enumerate(panels):
             own = sorted(
                 (row for row in rows if (row["run"], row["quantity"]) == (run, quantity)), key=lambda row: row["total"]
@@ -86,6 +96,7 @@ def sobol_figure(rows: Rows, path: Path) -> None:
             axes.tick_params(axis="y", labelsize=7)
             if index == 0:
                 axes.legend(loc="lower right")
+        _mark(figure, rows)
         _save(figure, path)
 
 
@@ -111,7 +122,23 @@ def compatibility_figure(rows: Rows, path: Path) -> None:
         axes.set(xlabel="a_theta, % per degC", ylabel="a_v, % per m/s (bar: sd over the sets)")
         axes.set_title("Rate and temperature coefficients of linear compounds", loc="left")
         axes.legend()
+        figure.text(0.995, 0.002, "WLF constants of the paper; rig geometry with an assumed big wheel", ha="right",
+                    va="bottom", fontsize=6.0, color="#6b5200")  # fmt: skip
         _save(figure, path)
+
+
+def _leave_room(figure: Figure) -> None:
+    engine = figure.get_layout_engine()
+    assert isinstance(engine, ConstrainedLayoutEngine)
+    engine.set(rect=(0, 0.03, 1, 0.97))
+
+
+def _mark(figure: Figure, rows: Rows) -> None:
+    """Print the assumed and synthetic inputs that the rows rest on."""
+    names = sorted({name for row in rows for name in (row["assumed"] or "").split("; ") if name})
+    if names:
+        text = "rests on: " + ", ".join(names)
+        figure.text(0.995, 0.002, text, ha="right", va="bottom", fontsize=6.0, color="#6b5200")
 
 
 def _styled() -> Any:
@@ -121,6 +148,7 @@ def _styled() -> Any:
 def _panel() -> tuple[Figure, Axes]:
     figure = Figure(figsize=(5.6, 4.2), layout="constrained")
     FigureCanvasAgg(figure)
+    _leave_room(figure)
     return figure, figure.add_subplot()
 
 

@@ -83,7 +83,7 @@ def case_rows(
 ) -> list[dict[str, Any]]:
     """Run every rung on every case (creep ratios known) and compare with the references of `engine`.
 
-    Time is that of one pass on one core, the second one of its kind, so that compiling and the static solve are left
+    Time is the processor's for one pass, the second one of its kind, so that compiling and the static solve are left
     out. The rows' columns are `CASE_COLUMNS`.
     """
     source = f"fe:{engine}"
@@ -94,9 +94,9 @@ def case_rows(
         if kind not in warm:
             run(case, rung)
             warm.add(kind)
-        begin = time.perf_counter()
+        begin = time.process_time()
         predicted = run(case, rung)
-        seconds = time.perf_counter() - begin
+        seconds = time.process_time() - begin
         reference = references[source, case.case_id]
         assumed = "; ".join(case.assumed())
         if reference.history is None:

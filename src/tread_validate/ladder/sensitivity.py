@@ -164,7 +164,8 @@ def sobol_rows(case: Case, samples: int = 256, with_creep: bool = True, seed: in
         "bounds": [[factor.low, factor.high] for factor in factors],
     }
     inputs = sampler.sample(problem, samples, calc_second_order=False, seed=seed)
-    quantities = (*FORCES, CREEP) if with_creep and not case.is_rig else FORCES
+    # on the rig the springs have hardly any tangential force: what they have is no finding
+    quantities = FORCES[:1] if case.is_rig else (*FORCES, CREEP) if with_creep else FORCES
     outputs = evaluate(case, factors, inputs, CREEP in quantities)
     rows = []
     for column, quantity in enumerate(quantities):
