@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import wording
-from .cases import CaseView, facets
+from .cases import CaseView, Facet, facets
 from .content import Widget
 from .marks import Marks
 from .palette import Look
-from .tables import Tables, number
+from .tables import Tables, number, records
 
 HEAT = (
     ("peak_normal_force", "scalar"),
@@ -36,58 +36,73 @@ SCATTER = (
 
 
 def heatmap(tables: Tables, views: tuple[CaseView, ...], marks: Marks) -> tuple[Widget, list[dict[str, Any]]]:
-    """Return the heat maps' grid and, for every model and quantity, the values."""
+    """Return the heat maps' grid and, for every model and quantity, each case's text and place on the colour scale.
+
+    A quantity may be judged in per cent for some cases and in newtons for others; each kind has its own scale.
+    """
     frame = tables.errors
+    pairs = list(dict.fromkeys(zip(frame["predicted_source"], frame["reference_source"], strict=True)))
     choices: list[str] = []
     data: list[dict[str, Any]] = []
-    pairs = list(dict.fromkeys(zip(frame["predicted_source"], frame["reference_source"], strict=True)))
     for quantity, metric in HEAT:
-        own = frame[(frame["quantity"] == quantity) & (frame["metric"] == metric)]
-        if not len(own):
-            continue
-        score = str(own["error_type"].iloc[0]) == "score"
-        relative = str(own["error_type"].iloc[0]) == "relative" or metric == "relative_rms"
-        shown = own["predicted"] if score else own["error"]
-        sizes = [abs(v - (1.0 if score else 0.0)) for v in map(number, shown) if v is not None]
-        limit = max(sizes, default=0.0) or 1.0
-        for predicted, reference in pairs:
-            chosen = (own["predicted_source"] == predicted) & (own["reference_source"] == reference)
-            values = dict(zip(own.loc[chosen, "case_id"], map(number, shown[chosen]), strict=True))
-            choices.append(
-                f"{wording.quantity(quantity, metric)} – {wording.source(str(predicted))} against "
-                f"{wording.source(str(reference))}"
-            )
-            centre = 1.0 if score else 0.0
-            data.append(
-                {
-                    "values": {str(case): _rounded(value) for case, value in values.items()},
-                    "relative": relative,
-                    "centre": centre,
-                    "limit": _rounded(limit),
-                    "lowText": _ends(centre - limit, relative),
-                    "highText": _ends(centre + limit, relative),
-                }
-            )
-    grid = [_facet(facet, data[0] if data else None) for facet in facets(views)]
+        own = records(frame[(frame["quantity"] == quantity) & (frame["metric"] == metric)])
+        found = [(row, value) for row in own if (value := _shown(row)) is not None]
+        limits: dict[str, float] = {}
+        for row, value in found:
+            kind = _kind(row)
+            limits[kind] = max(limits.get(kind, 0.0), abs(value - _centre(row)))
+        for predicted, reference in pairs if own else ():
+            cells = {
+                str(row["case_id"]): [_text(row, value), _rounded((value - _centre(row)) / (limits[_kind(row)] or 1.0))]
+                for row, value in found
+                if (row["predicted_source"], row["reference_source"]) == (predicted, reference)
+            }
+            names = f"{wording.source(str(predicted))} against {wording.source(str(reference))}"
+            choices.append(f"{wording.quantity(quantity, metric)} – {names}")
+            low, high = _scale_ends(own[0], limits)
+            data.append({"cells": cells, "lowText": low, "highText": high})
+    grid = [_facet(facet, data[0]["cells"] if data else {}) for facet in facets(views)]
     low, high = (data[0]["lowText"], data[0]["highText"]) if data else ("", "")
     everything = marks.of_column(frame["assumed"])
     return Widget("heatmap", {"choices": choices, "facets": grid, "low": low, "high": high, "marks": everything}), data
 
 
-def _facet(facet: Any, first: dict[str, Any] | None) -> dict[str, Any]:
+def _shown(row: dict[str, Any]) -> float | None:
+    """Return what a cell shows: a score itself, of anything else the error."""
+    return number(row["predicted"] if row["error_type"] == "score" else row["error"])
+
+
+def _centre(row: dict[str, Any]) -> float:
+    return 1.0 if row["error_type"] == "score" else 0.0
+
+
+def _kind(row: dict[str, Any]) -> str:
+    return str(row["unit"]) if row["error_type"] == "absolute" else str(row["error_type"])
+
+
+def _text(row: dict[str, Any], value: float) -> str:
+    return wording.error(value, str(row["error_type"]), wording.unit(str(row["unit"])), str(row["metric"]))
+
+
+def _scale_ends(row: dict[str, Any], limits: dict[str, float]) -> tuple[str, str]:
+    """Name the ends of the colour scale: values where all cases are judged alike, words otherwise."""
+    if len(limits) != 1:
+        return "below the reference", "above"
+    (kind, limit), centre = next(iter(limits.items())), _centre(row)
+    if kind in ("relative", "score"):
+        show = wording.percent if kind == "relative" else wording.digits
+        return show(centre - limit), show(centre + limit)
+    return f"{wording.digits(-limit)} {kind}", f"{wording.digits(limit)} {kind}"
+
+
+def _facet(facet: Facet, cells: dict[str, list[Any]]) -> dict[str, Any]:
     def cell(view: CaseView | None) -> dict[str, str] | None:
         if view is None:
             return None
-        value = first["values"].get(view.case_id) if first else None
-        text = "n/a" if value is None else _ends(value, bool(first and first["relative"]))
-        return {"id": view.case_id, "label": view.label, "text": text}
+        return {"id": view.case_id, "label": view.label, "text": cells.get(view.case_id, ["n/a"])[0]}
 
     rows = [{"label": label, "cells": [cell(view) for view in members]} for label, members in facet.rows]
     return {"title": facet.title, "corner": facet.corner, "columns": facet.columns, "rows": rows}
-
-
-def _ends(value: float, relative: bool) -> str:
-    return wording.percent(value) if relative else wording.digits(value)
 
 
 def _rounded(value: float | None) -> float | None:

@@ -6,6 +6,8 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from ..errors import InputError
 from ..files import read_text
 from ..study import load_yaml
@@ -13,7 +15,7 @@ from . import wording
 from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table
 from .inputs import plain_table
 from .marks import Marks
-from .tables import number, read_table
+from .tables import number, read_table, records
 
 FIGURES = (
     ("pareto", "Cost and error of each rung", "Error of the peak normal force against the time of one pass."),
@@ -54,10 +56,49 @@ def ladder_section(folder: Path | None, drawn: Path, marks: Marks) -> Section | 
             figures.append(Figure(f"ladder-{name}", title, caption, drawn / f"ladder-{name}.svg", own))
     if figures:
         items.append(Figures(tuple(figures)))
+    if "pareto" in tables:
+        items.append(_pareto(tables["pareto"], marks))
     for name, title in TABLES:
         if name in tables:
-            items.append(plain_table(f"ladder-{name}", title, tables[name], marks, folded=name != "pareto"))
+            items.append(plain_table(f"ladder-{name}", title, tables[name], marks, folded=True))
     return Section("ladder", "The model ladder", tuple(items)) if tables else None
+
+
+def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
+    """Return what a reader asks first of each rung: how long it takes, how wrong it is, whether that was the target."""
+    rows = []
+    for record in records(frame):
+        seconds, mean, worst = (
+            number(record[key])
+            for key in ("seconds_per_pass", "mean_abs_peak_normal_force_error", "worst_peak_normal_force_error")
+        )
+        within, normal, tangential = (
+            number(record[key]) for key in ("tangential_within", "least_iso18571_normal", "least_iso18571_tangential")
+        )
+        met = str(record["target_met"]).lower()
+        outcome = {"true": ("✓ met", "good"), "false": ("✗ not met", "bad")}.get(met, ("–", "mute"))
+        cells = (
+            Cell(str(record["group"])),
+            Cell(f"{number(record['compared']) or 0:.0f} of {number(record['cases']) or 0:.0f}"),
+            Cell(wording.digits(None if seconds is None else 1e3 * seconds), sort=seconds),
+            Cell(wording.percent(mean), sort=mean),
+            Cell(wording.percent(worst, sign=True), sort=worst, note=str(record["worst_case_id"] or "")),
+            Cell(wording.percent(within, 0), sort=within),
+            Cell(f"{wording.digits(normal, 2)} / {wording.digits(tangential, 2)}", sort=normal),
+            Cell(outcome[0], tone=outcome[1], note=str(record["target"] or "")),  # type: ignore[arg-type]
+        )
+        rows.append(Row(cells, marks.of(record["assumed"]), group=str(record["rung"]).replace("_", " ")))
+    columns = (
+        Column("Cases"),
+        Column("Compared"),
+        Column("Time of one pass", "ms", numeric=True),
+        Column("Mean |error|", "peak normal force", numeric=True),
+        Column("Largest error", "peak normal force", numeric=True),
+        Column("Tangential peaks right", "to 10 % or 2 N", numeric=True),
+        Column("Least ISO/TS 18571", "normal / tangential", numeric=True),
+        Column("Target", wide=True),
+    )
+    return Table("ladder-rungs", "The rungs", columns, tuple(rows), "Errors are against the FE runs.", with_marks=True)
 
 
 def mesh_table(reference: Path) -> Table | None:

@@ -102,6 +102,8 @@ def _ensemble_row(record: dict[str, Any], marks: Marks, headline: bool) -> Row:
     mean, largest = number(record["mean_abs_error"]), number(record["largest_abs_error"])
     passed = number(record["passed"])
     note = str(record["note"] or "")
+    if compared:  # how many are missing stands in the next column already
+        note = "; ".join(part for part in note.split("; ") if not part.endswith("runs cannot be compared"))
     if compared == 0:
         note = note or wording.status(str(record["status"]))
 

@@ -119,20 +119,22 @@ def _tangential(tables: Tables, pair: tuple[str, str]) -> str:
     row = _row(tables, pair, "peak_positive_tangential_force", "scalar")
     if row is None or not number(row["compared"]):
         return ""
-    size, unit = number(row["mean_abs_error"]), str(row["unit"])
-    shown = wording.percent(size) if row["error_type"] == "relative" else f"{wording.digits(size)} {unit}"
-    return f" Peak tangential force: mean |error| {shown}."
+    return f" Peak tangential force: mean |error| {_size(row)}."
 
 
 def _histories(tables: Tables, pair: tuple[str, str]) -> str:
-    rows = [_row(tables, pair, quantity, "relative_rms") for quantity in ("normal_force", "tangential_force")]
-    means = [number(row["mean_abs_error"]) for row in rows if row is not None and number(row["compared"])]
-    if len(means) != 2:
-        return ""
-    return (
-        f" Histories: RMS error {wording.percent(means[0])} of the peak (normal) and {wording.percent(means[1])} "
-        "(tangential) on average."
-    )
+    found = []
+    for quantity, name in (("normal_force", "normal"), ("tangential_force", "tangential")):
+        row = _row(tables, pair, quantity, "relative_rms")
+        if row is not None and number(row["compared"]):
+            found.append(f"{_size(row)}{' of the peak' if row['error_type'] == 'relative' else ''} ({name})")
+    return f" Histories: mean RMS error {' and '.join(found)}." if found else ""
+
+
+def _size(row: dict[str, Any]) -> str:
+    """Write a mean error in per cent or, where it is judged so, in its unit."""
+    size = number(row["mean_abs_error"])
+    return wording.percent(size) if row["error_type"] == "relative" else f"{wording.digits(size)} {row['unit']}"
 
 
 def _grades(errors: pd.DataFrame) -> str:

@@ -89,7 +89,7 @@ def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
         metric = str(record["metric"])
         if metric in PARTS:
             continue
-        shown_unit = f" {wording.unit(str(record['unit']))}".rstrip()
+        unit = wording.unit(str(record["unit"]))
         reference, predicted = number(record["reference"]), number(record["predicted"])
         verdict, status, note = str(record["verdict"] or ""), str(record["status"]), str(record["note"] or "")
         compared = number(record["error"]) is not None
@@ -100,12 +100,12 @@ def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
         why = "; ".join(part for part in (wording.status(status), note) if part) if alike else ""
         found.setdefault(str(record["case_id"]), []).append(
             {
-                "q": wording.quantity(str(record["quantity"]), metric),
+                "q": wording.quantity(str(record["quantity"]), metric) + (f", {unit}" if unit else ""),
                 "p": wording.source(str(record["predicted_source"])),
                 "r": wording.source(str(record["reference_source"])),
-                "a": "–" if reference is None else wording.digits(reference, 4) + shown_unit,
-                "b": "–" if predicted is None else wording.digits(predicted, 4) + shown_unit,
-                "e": wording.error(number(record["error"]), str(record["error_type"]), shown_unit.strip(), metric),
+                "a": "–" if reference is None else wording.digits(reference, 4),
+                "b": "–" if predicted is None else wording.digits(predicted, 4),
+                "e": wording.error(number(record["error"]), str(record["error_type"]), metric=metric),
                 "v": "–" if alike else wording.verdict(verdict) if verdict else "",
                 "tone": "" if alike else wording.TONES.get(verdict, ""),
                 "note": "" if alike else note,

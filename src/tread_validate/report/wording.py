@@ -123,7 +123,7 @@ def plain(value: float | None, figures: int = 6) -> str:
 
 def unit(text: str) -> str:
     """Write a unit as a reader expects it; a number without a unit has none."""
-    return {"1": "", "-": "", "degC": "°C", "1/degC": "1/°C", "deg": "°"}.get(text, text)
+    return {"1": "", "-": "", "degC": "°C", "1/degC": "1/°C", "%/degC": "%/°C", "deg": "°"}.get(text, text)
 
 
 def signed(text: str) -> str:
@@ -150,7 +150,7 @@ def error(value: float | None, error_type: str, unit: str = "", metric: str = "s
         return percent(value, sign=metric in SIGNED)
     if error_type == "score":
         return digits(value)
-    return f"{signed(digits(value))} {unit}".strip()
+    return f"{signed(digits(value)) if metric in SIGNED else digits(value)} {unit}".strip()
 
 
 def plural(count: int, one: str, many: str | None = None) -> str:

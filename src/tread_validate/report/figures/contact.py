@@ -56,7 +56,8 @@ def pressure(
             axes.plot(rows[0] / MM, rows[2] / MPA, "--", color=GREY, lw=1.0, label="shear, FE")
         axes.axhline(0.0, color="#57606a", lw=0.7)
         axes.set(xlabel="distance from the end that touches first, mm", ylabel="traction, MPa")
-        axes.legend(ncols=2)
+        axes.margins(y=0.2)
+        axes.legend(ncols=2, loc="upper right")
 
     caption = (
         f"{label}, {1e3 * instant:.2f} ms after first touch. Spring (paper): one value an element. "
@@ -88,9 +89,7 @@ def pressure_map(
         axes.set(aspect="equal", xlabel="distance from the end that touches first, mm", ylabel="across, mm")
         axes.grid(visible=False)
 
-    caption = (
-        f"{label}. {engine}. Largest value {values.max():.2f} MPa, at an edge; the scale ends at the 97th percentile."
-    )
+    caption = f"{label}. {engine}. Largest value {values.max():.2f} MPa; the scale ends at the 97th percentile."
     size = (WIDTH, HEIGHT + 0.3)
     return draw(
         folder, f"pressure-map-{case.case_id}", "Contact pressure over the face, FE", caption, paint, marks, size

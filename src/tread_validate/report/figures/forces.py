@@ -31,8 +31,8 @@ def history_panel(
     """Draw the normal or tangential force of one case, every source over each other."""
 
     def paint(axes: Axes) -> None:
-        for source, history in histories.items():
-            look = looks[source]
+        for source in [name for name in looks if name in histories]:
+            history, look = histories[source], looks[source]
             keep = thin(history)
             values = history.normal_force if force == "normal" else history.tangential_force
             axes.plot(

@@ -9,13 +9,11 @@ TV.heatmap = (function () {
   }
   function draw() {
     const chosen = TV.data.heat[Number(document.getElementById("heat-quantity").value)];
-    const scale = chosen.limit;
     for (const link of document.querySelectorAll("a.heat-cell")) {
-      const value = chosen.values[link.dataset.case];
-      const missing = value === undefined || value === null;
-      link.textContent = missing ? "n/a" : chosen.relative ? TV.percent(value) : TV.number(value);
-      link.style.background = missing ? "" : colour((value - chosen.centre) / scale);
-      link.setAttribute("aria-label", link.dataset.label + ": " + (missing ? "no value" : link.textContent));
+      const cell = chosen.cells[link.dataset.case];
+      link.textContent = cell ? cell[0] : "n/a";
+      link.style.background = cell ? colour(cell[1]) : "";
+      link.setAttribute("aria-label", link.dataset.label + ": " + (cell ? cell[0] : "no value"));
     }
     document.getElementById("heat-low").textContent = chosen.lowText;
     document.getElementById("heat-high").textContent = chosen.highText;

@@ -10,9 +10,6 @@ TV.element = function (name, attributes, ...children) {
   for (const child of children) { node.append(child); }
   return node;
 };
-TV.minus = (text) => text.replace(/^-/, "\u2212");
-TV.percent = (value) => (value === null ? "\u2013" : TV.minus((100 * value).toFixed(1)) + "\u00a0%");
-TV.number = (value) => (value === null ? "\u2013" : TV.minus(Number(value.toPrecision(4)).toString()));
 TV.layout = function (extra) {
   return Object.assign({
     font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: "#1b1f24" },
