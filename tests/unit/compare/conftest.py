@@ -53,6 +53,7 @@ class Workspace:
         text = change((ROOT / "config" / "study.yaml").read_text(encoding="utf-8"))
         data = yaml.safe_load(text)
         data["runs"][0].update(SMALL)
+        data["spring"]["variants"] = ["paper"]
         self.study.parent.mkdir(parents=True, exist_ok=True)
         self.study.write_text(yaml.safe_dump(data, sort_keys=False), encoding="utf-8")
 
