@@ -6,13 +6,13 @@ STUDY ?= config/study.yaml
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 VENV := .venv
 BIN := $(VENV)/bin
-SNAKEMAKE := $(BIN)/snakemake --profile workflow/profiles/default --cores $(CORES) --config study=$(STUDY)
+SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --profile workflow/profiles/default --cores $(CORES) --config study=$(STUDY)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium chromium-driver poppler-utils
 
-.PHONY: help report test lint verify reference mesh-study bench docs clean
+.PHONY: help report test lint verify reference mesh-study bench docs test-cluster test-robustness clean
 
 help: ## Show this list
-	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 report: $(BIN)/.installed ## Set up, run the study and write reports/index.html and reports/report.pdf
 	@$(SNAKEMAKE)
@@ -45,6 +45,14 @@ docs: $(BIN)/.installed-dev report ## Build the guide, links checked: build/docs
 	@$(BIN)/python docs/generate.py
 	@$(BIN)/mkdocs build --strict --quiet
 	@echo "The guide: build/docs/index.html"
+
+test-cluster: $(BIN)/.installed-dev ## A 200-run study through a real Slurm on this machine (root)
+	@sh workflow/setup/packages.sh slurm-wlm munge gfortran
+	@$(BIN)/python tests/workflow/slurm/check_cluster.py
+
+test-robustness: $(BIN)/.installed-dev ## Kill -9, two runs at once, full and read-only disks (root); damaged files
+	@$(BIN)/python tests/workflow/robustness/check_robustness.py
+	@$(BIN)/pytest -m heavy -q -rP tests/unit/fuzz
 
 clean: ## Remove what the pipeline made (not the virtual environment)
 	@rm -rf results reports/tables reports/figures reports/*.html reports/*.pdf .snakemake
