@@ -68,7 +68,7 @@ class Blocks:
         Element index in each lane, -1 where a lane is empty.
     spectra : list of Relaxation
         One per row of the material tables (material and temperature).
-    gradients : (m, 3, 8); volume, density, shear, bulk, hourglass : (m,)
+    gradients : (m, 3, 8); volume, density, shear, bulk, hourglass, bulk_linear : (m,)
     mass : (n,) nodal masses
     slots, slot_start : ints
         Where in the flat force array each node gathers from: rows of `LANES`, x then y then z.
@@ -87,6 +87,7 @@ class Blocks:
     shear: Floats
     bulk: Floats
     hourglass: Floats
+    bulk_linear: Floats
     mass: Floats
     slots: NDArray[np.int32]
     slot_start: NDArray[np.int32]
@@ -104,15 +105,32 @@ class Blocks:
         give 8 (lambda tr M + 2 G max eig M)/rho; it reduces to 4 c^2 sum 1/l^2 for a nearly incompressible brick.
         Gradients follow the deformation when F - 1, shape (m, 3, 3), is given.
         """
+        trace, largest = self._moments(gradient_of_displacement)
+        return self._frequency_squared(trace, largest)
+
+    def stable_increments(self, gradient_of_displacement: Floats) -> Floats:
+        """Return a bound on each element's stable increment under the bulk viscosity that is set, (m,).
+
+        2 (sqrt(1 + x^2) - x)/omega; x = 4 b1 rho c L tr M/(rho omega) is the damping ratio of the dilatation.
+        """
+        trace, largest = self._moments(gradient_of_displacement)
+        omega = np.sqrt(self._frequency_squared(trace, largest))
+        ratio = 4.0 * self.bulk_linear * trace / (self.density * omega)
+        return np.asarray(2.0 * (np.sqrt(1.0 + ratio**2) - ratio) / omega, dtype=np.float64)
+
+    def _moments(self, gradient_of_displacement: Floats | None) -> tuple[Floats, Floats]:
+        """Return the trace and the largest eigenvalue of M, each (m,)."""
         b = self.gradients
         if gradient_of_displacement is not None:
             f = gradient_of_displacement + np.eye(3)
             b = np.asarray(np.linalg.solve(np.swapaxes(f, 1, 2), b), dtype=np.float64)
         m = b @ np.swapaxes(b, 1, 2)
-        trace = np.trace(m, axis1=1, axis2=2)
-        largest = np.linalg.eigvalsh(m)[:, 2]
-        lame = self.bulk - 2.0 / 3.0 * self.shear
-        bulk = 8.0 * (np.maximum(lame, 0.0) * trace + 2.0 * self.shear * largest) / self.density
+        largest: Floats = np.linalg.eigvalsh(m)[:, 2].astype(np.float64)
+        return np.asarray(np.trace(m, axis1=1, axis2=2), dtype=np.float64), largest
+
+    def _frequency_squared(self, trace: Floats, largest: Floats) -> Floats:
+        lame = np.maximum(self.bulk - 2.0 / 3.0 * self.shear, 0.0)
+        bulk = 8.0 * (lame * trace + 2.0 * self.shear * largest) / self.density
         return np.asarray(np.maximum(bulk, self.hourglass / (self.density * self.volume)), dtype=np.float64)
 
 
@@ -151,6 +169,7 @@ def pack(model: Model, duration: float) -> Blocks:
         shear=shear,
         bulk=bulk,
         hourglass=hourglass,
+        bulk_linear=np.zeros(volume.size),
         mass=np.zeros(0),
         slots=np.zeros(0, dtype=np.int32),
         slot_start=np.zeros(0, dtype=np.int32),
@@ -256,10 +275,11 @@ def set_bulk_viscosity(blocks: Blocks, model: Model, linear: float, quadratic: f
     for section in model.sections:
         one[section.elements] = section.linear_scale
         two[section.elements] = section.quadratic_scale
+    blocks.bulk_linear = linear * one * blocks.density * wave * length
     rows = np.zeros((blocks.order.size, 2))
     used = blocks.order >= 0
     own = blocks.order[used]
-    rows[used, 0] = (linear * one * blocks.density * wave * length)[own]
+    rows[used, 0] = blocks.bulk_linear[own]
     rows[used, 1] = (blocks.density * (quadratic * two * length) ** 2)[own]
     first = kernel.GEO_BULK_LINEAR
     blocks.geo[:, first : first + 2] = rows.reshape(-1, LANES, 2).transpose(0, 2, 1)
