@@ -21,19 +21,24 @@ def command(
     samples: Annotated[
         int, typer.Option("--samples", min=8, max=65536, help="base sample of the Sobol indices, a power of two")
     ] = 256,
+    part: Annotated[
+        list[str] | None,
+        typer.Option("--part", help="pareto, effects, published, compatibility or sobol; may be given again; else all"),
+    ] = None,
 ) -> None:
     """Hold every rung of the model ladder against the FE runs, and say what each effect is worth.
 
     Example: tread-validate ladder config/study.yaml --decks fe_inputs -o results/ladder
     """
     from ..errors import InputError
-    from ..ladder.build import Folders, build
+    from ..ladder.build import PARTS, Folders, build
     from ..study import load_study
 
     if samples & (samples - 1):
         raise InputError("--samples", samples, "a power of two")
-    tables = build(load_study(study), Folders(references, decks, mesh, output), typer.echo, samples)
-    for row in tables["pareto"]:
+    folders = Folders(references, decks, mesh, output)
+    tables = build(load_study(study), folders, typer.echo, samples, part or PARTS)
+    for row in tables.get("pareto", []):
         error = row["mean_abs_peak_normal_force_error"]
         told = "no current reference" if error is None else f"mean error of peak N {100 * error:.1f} %"
         typer.echo(f"{row['rung']}, {row['group']}: {row['seconds_per_pass']:.4f} s a pass, {told}")

@@ -9,12 +9,15 @@ from typing import Any
 
 from ..compare.csv_table import write_table
 from ..compare.runs import fe_runs
+from ..errors import InputError
 from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt
 from . import compatibility, effects, figures, pareto, published, sensitivity
 
 Table = list[dict[str, Any]]
 Say = Callable[[str], None]
+
+PARTS = ("pareto", "effects", "published", "compatibility", "sobol")
 
 
 @dataclass(frozen=True)
@@ -27,39 +30,52 @@ class Folders:
     output: Path
 
 
-def build(study: LoadedStudy, folders: Folders, say: Say, samples: int = 256) -> dict[str, Table]:
-    """Make every table and figure and return the tables by name; see docs/model_ladder.md for what they hold."""
+def build(
+    study: LoadedStudy, folders: Folders, say: Say, samples: int = 256, parts: Sequence[str] = PARTS
+) -> dict[str, Table]:
+    """Make the tables and figures of the `parts` and return the tables by name; see docs/model_ladder.md.
+
+    Raises `InputError` for a part that is none of `PARTS`.
+    """
+    for part in parts:
+        if part not in PARTS:
+            raise InputError("ladder: part", part, f"one of {', '.join(PARTS)}")
     cases = resolve_creep(study.cases())
     engine = study.model.engine
     references = fe_runs(cases, folders.references, engine, folders.decks)
     chosen = representative(cases)
+    drawn = folders.output / "figures"
     tables: dict[str, Table] = {}
 
     def put(name: str, columns: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
         tables[name] = list(rows)
         write_table(folders.output / f"{name}.csv", columns, tables[name])
 
-    say("error and cost of every rung")
-    put("errors", pareto.CASE_COLUMNS, pareto.case_rows(cases, references, engine))
-    put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
-    put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.mesh))
-    say("what each effect is worth")
-    put("effects", effects.COLUMNS, effects.effect_rows(chosen))
-    put("stiffness", effects.THEORY_COLUMNS, [row for case in chosen for row in effects.theory_rows(case)])
-    say("published figures")
-    put("published", published.COLUMNS, published.published_rows(cases, references, engine, pareto.RUNGS))
-    belts = [case for case in chosen if isinstance(case.path, SimplifiedBelt)]
-    rungs = ("paper", "bonded", "coupled_coarse")
-    put("combinations", published.COMBINATION_COLUMNS,
-        [row for case in belts for row in published.combination_rows(case, rungs)])  # fmt: skip
-    say("rate and temperature")
-    put("compatibility", compatibility.COLUMNS, compatibility.compatibility_rows(cases))
-    say("Sobol indices")
-    put("sobol", sensitivity.COLUMNS, [row for case in chosen for row in sensitivity.sobol_rows(case, samples)])
-    drawn = folders.output / "figures"
-    figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")
-    figures.sobol_figure(tables["sobol"], drawn / "sobol")
-    figures.compatibility_figure(tables["compatibility"], drawn / "compatibility")
+    if "pareto" in parts:
+        say("error and cost of every rung")
+        put("errors", pareto.CASE_COLUMNS, pareto.case_rows(cases, references, engine))
+        put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
+        put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.mesh))
+        figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")
+    if "effects" in parts:
+        say("what each effect is worth")
+        put("effects", effects.COLUMNS, effects.effect_rows(chosen))
+        put("stiffness", effects.THEORY_COLUMNS, [row for case in chosen for row in effects.theory_rows(case)])
+    if "published" in parts:
+        say("published figures")
+        put("published", published.COLUMNS, published.published_rows(cases, references, engine, pareto.RUNGS))
+        belts = [case for case in chosen if isinstance(case.path, SimplifiedBelt)]
+        rungs = ("paper", "bonded", "coupled_coarse")
+        put("combinations", published.COMBINATION_COLUMNS,
+            [row for case in belts for row in published.combination_rows(case, rungs)])  # fmt: skip
+    if "compatibility" in parts:
+        say("rate and temperature")
+        put("compatibility", compatibility.COLUMNS, compatibility.compatibility_rows(cases))
+        figures.compatibility_figure(tables["compatibility"], drawn / "compatibility")
+    if "sobol" in parts:
+        say("Sobol indices")
+        put("sobol", sensitivity.COLUMNS, [row for case in chosen for row in sensitivity.sobol_rows(case, samples)])
+        figures.sobol_figure(tables["sobol"], drawn / "sobol")
     return tables
 
 

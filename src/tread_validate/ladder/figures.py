@@ -122,15 +122,16 @@ def compatibility_figure(rows: Rows, path: Path) -> None:
         axes.set(xlabel="a_theta, % per degC", ylabel="a_v, % per m/s (bar: sd over the sets)")
         axes.set_title("Rate and temperature coefficients of linear compounds", loc="left")
         axes.legend()
-        figure.text(0.995, 0.002, "WLF constants of the paper; rig geometry with an assumed big wheel", ha="right",
-                    va="bottom", fontsize=6.0, color="#6b5200")  # fmt: skip
+        figure.text(0.995,
+            0.997, "WLF constants of the paper; rig geometry with an assumed big wheel", ha="right",
+                    va="top", fontsize=6.0, color="#6b5200")  # fmt: skip
         _save(figure, path)
 
 
 def _leave_room(figure: Figure) -> None:
     engine = figure.get_layout_engine()
     assert isinstance(engine, ConstrainedLayoutEngine)
-    engine.set(rect=(0, 0.03, 1, 0.97))
+    engine.set(rect=(0, 0, 1, 0.96))
 
 
 def _mark(figure: Figure, rows: Rows) -> None:
@@ -138,7 +139,7 @@ def _mark(figure: Figure, rows: Rows) -> None:
     names = sorted({name for row in rows for name in (row["assumed"] or "").split("; ") if name})
     if names:
         text = "rests on: " + ", ".join(names)
-        figure.text(0.995, 0.002, text, ha="right", va="bottom", fontsize=6.0, color="#6b5200")
+        figure.text(0.995, 0.997, text, ha="right", va="top", fontsize=6.0, color="#6b5200")
 
 
 def _styled() -> Any:
