@@ -27,7 +27,7 @@ FLAGS = (
     "--disable-component-update", "--disable-sync", "--disable-extensions", "--disable-dev-shm-usage",
     "--remote-debugging-port=0",
 )  # fmt: skip
-PATIENCE = 60.0  # s: for a busy machine; a page takes about 1 s
+PATIENCE = 180.0  # s: for a busy machine; a page takes about 1 s
 
 
 @dataclass

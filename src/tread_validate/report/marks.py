@@ -1,4 +1,4 @@
-"""Codes for the assumed and synthetic inputs, so that every number can carry them."""
+"""Codes for the assumed (A) and synthetic (S) inputs, so that every number can carry them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _ENDING = re.compile(r"\s*\((assumed|synthetic)\)$")
 
 
 class Marks:
-    """Turn the tables' ``assumed`` columns into coded marks (A1, A2, ...), in the order of the list of assumptions."""
+    """Turn the tables' ``assumed`` columns into coded marks (S1, A2, ...), in the order of the list of assumptions."""
 
     def __init__(self, assumed: pd.DataFrame) -> None:
         self._known: dict[str, Mark] = {}
@@ -46,7 +46,8 @@ class Marks:
     def _add(self, name: str, origin: str, source: str) -> None:
         plain = _ENDING.sub("", name)
         text = f"{plain} ({origin})" + (f": {source}" if source else "")
-        self._known[plain] = Mark(f"A{len(self._known) + 1}", origin, text)
+        letter = "S" if origin == "synthetic" else "A"
+        self._known[plain] = Mark(f"{letter}{len(self._known) + 1}", origin, text)
 
 
 def by_origin(marks: Iterable[Mark]) -> list[tuple[str, list[Mark]]]:
@@ -58,5 +59,5 @@ def by_origin(marks: Iterable[Mark]) -> list[tuple[str, list[Mark]]]:
 
 
 def in_words(marks: Iterable[Mark]) -> str:
-    """Write marks as text: ``synthetic A1 · assumed A2 A4``."""
+    """Write marks as text: ``synthetic S1 · assumed A2 A4``."""
     return " · ".join(f"{origin} {' '.join(mark.code for mark in members)}" for origin, members in by_origin(marks))

@@ -18,10 +18,11 @@ import typst
 
 from ..errors import EngineError
 from ..files import write_bytes
-from .content import Cell, Column, Figures, Item, Paragraph, Report, Section, Table, Verdicts
+from .content import Cell, Column, Figures, Item, Paragraph, Report, Table, Verdicts
 from .marks import in_words
 
 WIDEST_TABLE = 11  # columns
+LONGEST_WORD = 12  # signs: a longer text may be broken
 LONGEST_TABLE = 260  # rows: the page and the CSV files hold the rest
 
 
@@ -40,7 +41,7 @@ def write_pdf(report: Report, path: Path) -> None:
             "lead": list(report.lead),
             "notes": list(report.notes),
             "stamp": [list(pair) for pair in report.stamp],
-            "sections": [found for section in report.sections if (found := _section(section, folder)) is not None],
+            "sections": _sections(report, folder),
         }
         (folder / "data.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8")
         try:
@@ -57,11 +58,22 @@ def write_pdf(report: Report, path: Path) -> None:
     write_bytes(path, made)
 
 
-def _section(section: Section, folder: Path) -> dict[str, Any] | None:
-    if section.page_only:
-        return None
-    items = [found for item in section.items for found in _items(item, folder)]
-    return {"title": section.title, "items": items} if items else None
+def _sections(report: Report, folder: Path) -> list[dict[str, Any]]:
+    """Return the sections; tables that the page folds away go to an appendix, so that the rest reads well."""
+    found: list[dict[str, Any]] = []
+    appendix: list[dict[str, Any]] = []
+    for section in report.sections:
+        if section.page_only:
+            continue
+        items: list[dict[str, Any]] = []
+        for item in section.items:
+            folded = isinstance(item, Table) and item.folded
+            (appendix if folded else items).extend(_items(item, folder))
+        if items:
+            found.append({"title": section.title, "items": items})
+    if appendix:
+        found.append({"title": "Appendix: full tables", "items": appendix})
+    return found
 
 
 def _items(item: Item, folder: Path) -> list[dict[str, Any]]:
@@ -102,7 +114,8 @@ def _figures(figures: Figures, folder: Path) -> dict[str, Any]:
 def _table(table: Table) -> dict[str, Any]:
     columns = [_column(column) for column in table.columns]
     if table.with_marks:
-        columns.append({"title": "Rests on", "unit": "", "numeric": False, "marks": "", "wide": False})
+        legend = "S synthetic, A assumed"
+        columns.append({"title": "Rests on", "unit": legend, "numeric": False, "marks": "", "wide": False})
     rows: list[dict[str, Any]] = []
     for group, members in itertools.groupby(table.rows[:LONGEST_TABLE], key=lambda row: row.group):
         if group:
@@ -110,7 +123,7 @@ def _table(table: Table) -> dict[str, Any]:
         for row in members:
             cells = [_cell(cell) for cell in row.cells]
             if table.with_marks:
-                cells.append({"text": in_words(row.marks), "note": "", "tone": "mute"})
+                cells.append({"text": " ".join(mark.code for mark in row.marks), "note": "", "tone": "mute"})
             rows.append({"group": "", "cells": cells})
     caption = table.caption
     if len(table.rows) > LONGEST_TABLE:
@@ -137,7 +150,12 @@ def _column(column: Column) -> dict[str, Any]:
 
 
 def _cell(cell: Cell) -> dict[str, str]:
-    return {"text": cell.text, "note": cell.note, "tone": cell.tone}
+    return {"text": _breakable(cell.text), "note": _breakable(cell.note), "tone": cell.tone}
+
+
+def _breakable(text: str) -> str:
+    """Let long names such as case ids break after a hyphen or an underscore."""
+    return "".join(sign + ("\u200b" if sign in "-_" else "") for sign in text) if len(text) > LONGEST_WORD else text
 
 
 def _weights(columns: Sequence[Column], with_marks: bool) -> list[float]:

@@ -62,7 +62,7 @@ def test_summary_counts_verdicts_and_gives_bias_and_scatter(tables: Tables, mark
     assert "bias δ = 0.900" in first.answer
     assert "0 agree within uncertainty, 16 disagree, 2 cannot be told" in first.answer
     assert first.tone == "bad"
-    assert [mark.code for mark in first.marks] == ["A1"]
+    assert [mark.code for mark in first.marks] == ["S1"]
 
 
 def test_summary_does_not_claim_agreement_where_nothing_was_compared(inputs: Any, marks: Marks) -> None:

@@ -61,6 +61,6 @@ def test_marks_follow_the_list_of_assumptions() -> None:
     )
     marks = Marks(listed)
     found = marks.of("path p (assumed); compound c (synthetic)", "path p (assumed)", "block b (assumed)")
-    assert [(mark.code, mark.origin) for mark in found] == [("A1", "synthetic"), ("A2", "assumed"), ("A3", "assumed")]
-    assert in_words(found) == "synthetic A1 · assumed A2 A3"
+    assert [(mark.code, mark.origin) for mark in found] == [("S1", "synthetic"), ("A2", "assumed"), ("A3", "assumed")]
+    assert in_words(found) == "synthetic S1 · assumed A2 A3"
     assert marks.of("", "") == ()
