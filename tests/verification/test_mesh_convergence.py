@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tread_validate.compare.convergence import convergence, richardson
+from tread_validate.compare.convergence import convergence, history_errors, richardson
 from tread_validate.errors import InputError
 from tread_validate.history import History
 
@@ -55,3 +55,17 @@ def test_every_scalar_of_a_pass_is_extrapolated():
 def test_wrong_mesh_study_is_refused(sizes, values):
     with pytest.raises(InputError, match="mesh study"):
         richardson(sizes, values)
+
+
+def test_history_error_of_a_first_order_mesh_is_its_distance_from_the_limit():
+    """Histories F (1 + h) of a half sine: at h = 1 mm the limit is missed by F, rms 0.7071 of its largest value.
+
+    The finest mesh's largest value, 1.5 F, is the scale: 0.7071 / 1.5.
+    """
+    time = np.linspace(0.0, 1.0, 4001)
+    shape = np.sin(np.pi * time)
+    histories = [History(time, (1.0 + h) * shape, (1.0 + h) * shape, 0.0 * time) for h in (2.0, 1.0, 0.5)]
+    errors = history_errors((2.0, 1.0, 0.5), histories, 1.0)
+    assert errors == pytest.approx({"normal_force": np.sqrt(0.5) / 1.5, "tangential_force": np.sqrt(0.5) / 1.5})
+    with pytest.raises(InputError, match="but the finest"):
+        history_errors((2.0, 1.0, 0.5), histories, 0.5)

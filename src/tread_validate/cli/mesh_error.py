@@ -23,7 +23,7 @@ def command(
     """
     import yaml
 
-    from ..compare.convergence import convergence
+    from ..compare.convergence import convergence, history_errors
     from ..errors import InputError
     from ..files import write_text
     from ..history import History
@@ -39,6 +39,7 @@ def command(
     loaded = [History.read_csv(histories[index]) for index in order]
     sizes = [size[index] for index in order]
     at = sizes.index(used)
+    of_histories = history_errors(sizes, loaded, used)
     case_ids = {str(history.provenance.get("case_id", "")) for history in loaded}
     if len(case_ids) != 1:
         raise InputError("mesh-error: case_id", ", ".join(sorted(case_ids)), "three runs of one case")
@@ -50,7 +51,10 @@ def command(
         "method": "Richardson extrapolation from three meshes (doi:10.1115/1.2960953); errors are relative",
         "sizes_mm": sizes,
         "history_sha256": [sha256_file(histories[index]) for index in order],
-        "mesh_error": {name: float(f"{item.errors[at]:.4g}") for name, item in results.items()},
+        "mesh_error": {
+            **{name: float(f"{item.errors[at]:.4g}") for name, item in results.items()},
+            **{name: float(f"{value:.4g}") for name, value in of_histories.items()},
+        },
         "quantities": {
             name: {
                 "values": [float(f"{value:.7g}") for value in item.values],
@@ -65,3 +69,5 @@ def command(
     for name, item in results.items():
         how = f"order {item.order:.2f}" if item.order is not None else "no order: scatter of the meshes"
         typer.echo(f"  {name:32s} {100 * item.errors[at]:8.3f} %  ({how})")
+    for name, value in of_histories.items():
+        typer.echo(f"  {name:32s} {100 * value:8.3f} %  (history, root mean square)")
