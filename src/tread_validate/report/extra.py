@@ -53,7 +53,9 @@ def ladder_section(folder: Path | None, drawn: Path, marks: Marks) -> Section | 
                     shutil.copyfile(path, drawn / f"ladder-{path.name}")
             table = tables.get(name)
             own = marks.of_column(table["assumed"]) if table is not None and "assumed" in table else ()
-            figures.append(Figure(f"ladder-{name}", title, caption, drawn / f"ladder-{name}.svg", own))
+            figures.append(
+                Figure(f"ladder-{name}", title, caption, drawn / f"ladder-{name}.svg", own, wide=name == "sobol")
+            )
     if figures:
         items.append(Figures(tuple(figures)))
     if "pareto" in tables:

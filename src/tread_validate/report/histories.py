@@ -14,7 +14,9 @@ from ..compare.rig_peaks import RigPeak
 from ..history import History
 from .tables import Tables
 
-SAMPLES = 300
+SAMPLES = 300  # of one history, in a study of usual size
+BUDGET = 90_000  # samples of all histories together, so that a page of a thousand cases can still be mailed
+FEWEST = 60
 TIME_SCALE = 1e-6  # s: packed times are whole microseconds
 FORCE_STEPS = 20_000  # packed forces are whole steps of their largest value over this
 
@@ -57,9 +59,14 @@ def load_histories(tables: Tables, store: HistoryStore) -> dict[str, dict[str, H
     return found
 
 
-def pack(history: History) -> dict[str, Any]:
+def samples_each(histories: int) -> int:
+    """Return how many samples each of so many histories may have."""
+    return max(FEWEST, min(SAMPLES, BUDGET // max(histories, 1)))
+
+
+def pack(history: History, samples: int = SAMPLES) -> dict[str, Any]:
     """Return a history as small whole numbers: time steps in µs, forces in 1/20000 of their peak, slip in 1/1000."""
-    keep = thin(history)
+    keep = thin(history, samples)
     microseconds = np.rint(history.time[keep] / TIME_SCALE).astype(int)
     normal_scale, normal = _whole(history.normal_force[keep])
     tangential_scale, tangential = _whole(history.tangential_force[keep])

@@ -9,7 +9,7 @@ from ..history import History
 from . import wording
 from .cases import CaseView, factor_levels
 from .content import Mark, Widget
-from .histories import pack
+from .histories import pack, samples_each
 from .marks import Marks, by_origin
 from .palette import Look
 from .tables import Tables, number
@@ -29,6 +29,7 @@ def browser(
     factors = factor_levels(views)
     index = {factor["key"]: {level: i for i, level in enumerate(factor["levels"])} for factor in factors}
     states = _states(tables)
+    samples = samples_each(sum(len(sources) for sources in histories.values()))
     cases = [
         {
             "id": view.case_id,
@@ -54,7 +55,9 @@ def browser(
             }
             for key, look in looks.items()
         ],
-        "histories": {case: {key: pack(item) for key, item in sources.items()} for case, sources in histories.items()},
+        "histories": {
+            case: {key: pack(item, samples) for key, item in sources.items()} for case, sources in histories.items()
+        },
         "errors": _case_errors(tables),
     }
     return Widget("browser", {"factors": factors}), data

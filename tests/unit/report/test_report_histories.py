@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tread_validate.history import History
-from tread_validate.report.histories import FORCE_STEPS, SAMPLES, pack, thin
+from tread_validate.report.histories import BUDGET, FEWEST, FORCE_STEPS, SAMPLES, pack, samples_each, thin
 
 
 def history(samples: int, scale: float = 100.0, spike: int | None = None) -> History:
@@ -49,3 +49,12 @@ def test_force_that_is_nowhere_packs_as_zeros() -> None:
     time = np.linspace(0.0, 1.0, 5)
     none = History(time, np.zeros(5), np.zeros(5), np.zeros(5))
     assert pack(none)["n"] == [0] * 5
+
+
+@given(st.integers(0, 100_000))
+def test_many_histories_share_the_page_s_room(histories: int) -> None:
+    """Exact: a usual study draws 300 samples a history, a large one fewer, but never too few to see a curve."""
+    each = samples_each(histories)
+    assert FEWEST <= each <= SAMPLES
+    assert each * histories <= max(BUDGET, FEWEST * histories)
+    assert samples_each(260) == SAMPLES
