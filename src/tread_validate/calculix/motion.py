@@ -136,8 +136,10 @@ def read_motions(
         raise InputError(deck.path, f"no rigid body for surface {road_name}", "a rigid road")
 
     def motion(reference: str) -> Motion:
-        (node,) = sets[reference] if reference in sets else (int(reference),)
-        place = np.array(places[node][:2])
+        nodes = sets.get(reference) or ((int(reference),) if reference.isdigit() else ())
+        if len(nodes) != 1 or nodes[0] not in places:
+            raise InputError(f"{deck.path}: *RIGID BODY, REF NODE", reference, "one node of the deck, or a set of one")
+        place = np.array(places[nodes[0]][:2])
         return Motion(place, (prescribed.of(reference, 1), prescribed.of(reference, 2)), prescribed.of(reference, 6))
 
     road = motion(road_reference)

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 from ..errors import InputError
 
+LARGEST_LABEL = 999_999_999  # of a node or element, as in ABAQUS
+
 
 class DataLine(NamedTuple):
     """One data line below a keyword.
@@ -67,9 +69,12 @@ class DataLine(NamedTuple):
         if not text and default is not None:
             return default
         try:
-            return int(text)
+            value = int(text)
         except ValueError:
-            raise InputError(f"{self.where}: field {position + 1}", text or "nothing", what) from None
+            raise InputError(f"{self.where}: field {position + 1}", text[:40] or "nothing", what) from None
+        if abs(value) > LARGEST_LABEL:
+            raise InputError(f"{self.where}: field {position + 1}", text[:40], f"{what}, at most {LARGEST_LABEL}")
+        return value
 
 
 @dataclass(frozen=True)

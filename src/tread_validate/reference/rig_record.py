@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -81,15 +82,37 @@ def _read_text(path: Path | str, names: Mapping[str, str]) -> RigRecord:
     return _record(values, str(path), table.line, table.comments)
 
 
+class _Complaints(logging.Handler):
+    """Keeps the warnings of the TDMS reader, which goes on where a file is damaged."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.said: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep one warning."""
+        self.said.append(record.getMessage())
+
+
 def _read_tdms(path: Path, names: Mapping[str, str]) -> RigRecord:
     from nptdms import TdmsFile
 
     if not path.is_file():
         raise InputError(path, "no such file", "an existing file")
+    complaints = _Complaints()
+    loggers = [logging.getLogger(name) for name in list(logging.root.manager.loggerDict) if name.startswith("nptdms")]
+    kept = [logger.handlers for logger in loggers]
+    for logger in loggers:
+        logger.handlers = [complaints]
     try:
         file = TdmsFile.read(path)
     except Exception as error:  # the reader raises many kinds for a damaged file
         raise InputError(path, one_line(f"{type(error).__name__}: {error}", 120), "a TDMS file") from None
+    finally:
+        for logger, handlers in zip(loggers, kept, strict=True):
+            logger.handlers = handlers
+    if complaints.said:  # a file that is cut off is read as far as it goes, with a warning
+        raise InputError(path, one_line(complaints.said[0], 120), "a whole TDMS file")
     found = {f"{group.name}/{channel.name}": channel for group in file.groups() for channel in group.channels()}
     by_name = {}
     for name, wanted in names.items():

@@ -13,6 +13,8 @@ from .findings import Findings
 from .syntax import is_number
 from .table import ELEMENT_NODES
 
+LONGEST_LABEL = 9  # digits of a node or element number
+
 IntArray = NDArray[np.int64]
 NO_IDS: IntArray = np.zeros(0, dtype=np.int64)
 
@@ -125,8 +127,10 @@ def _elements(deck: Deck, names: Names, findings: Findings) -> None:
         lines: list[DataLine] = []
         pending: list[int] = []
         for line in block.data:
-            if not all(text.isdigit() for text in line.fields):
-                findings.add(line, "bad-element", f"*ELEMENT: {line.text[:40]}: expected whole numbers")
+            if not all(text.isdigit() and len(text) <= LONGEST_LABEL for text in line.fields):
+                findings.add(
+                    line, "bad-element", f"*ELEMENT: {line.text[:40]}: expected whole numbers of up to 9 digits"
+                )
                 pending = []
                 continue
             if not pending:
