@@ -15,9 +15,6 @@ def command(
     ),
     references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
     decks: Annotated[Path, typer.Option("--decks", help="folder of the generated decks")] = Path("fe_inputs"),
-    mesh: Annotated[Path, typer.Option("--mesh", help="FE runs on several meshes: SIZE/CASE.csv")] = Path(
-        "results/mesh"
-    ),
     samples: Annotated[
         int, typer.Option("--samples", min=8, max=65536, help="base sample of the Sobol indices, a power of two")
     ] = 256,
@@ -36,7 +33,7 @@ def command(
 
     if samples & (samples - 1):
         raise InputError("--samples", samples, "a power of two")
-    folders = Folders(references, decks, mesh, output)
+    folders = Folders(references, decks, output)
     tables = build(load_study(study), folders, typer.echo, samples, part or PARTS)
     for row in tables.get("pareto", []):
         error = row["mean_abs_peak_normal_force_error"]

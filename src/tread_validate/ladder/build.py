@@ -22,11 +22,10 @@ PARTS = ("pareto", "effects", "published", "compatibility", "sobol")
 
 @dataclass(frozen=True)
 class Folders:
-    """Where references, decks and the mesh study lie, and where the tables go."""
+    """Where references and decks lie, and where the tables go."""
 
     references: Path
     decks: Path
-    mesh: Path
     output: Path
 
 
@@ -55,7 +54,7 @@ def build(
         say("error and cost of every rung")
         put("errors", pareto.CASE_COLUMNS, pareto.case_rows(cases, references, engine))
         put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
-        put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.mesh))
+        put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.references, engine))
         figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")
     if "effects" in parts:
         say("what each effect is worth")

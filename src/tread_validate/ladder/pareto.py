@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 import yaml
 
-from ..compare import MetricRow, compare, scalars
+from ..compare import MetricRow, compare
 from ..compare.runs import Runs
 from ..errors import InputError
 from ..files import read_text
-from ..history import History
 from ..spring import run
 from ..study import Case
 
@@ -212,40 +211,49 @@ def _met(target: Target, entries: Mapping[str, Any]) -> bool:
 
 
 MESH_COLUMNS = (
-    "case_id", "element_size_mm", "elements", "wall_time_s", "peak_normal_force_N", "normal_impulse_N_s",
-    "peak_normal_force_error", "normal_impulse_error", "against",
+    "case_id", "element_size_mm", "seconds_estimated", "peak_normal_force_N", "peak_normal_force_error",
+    "normal_impulse_error", "note",
 )  # fmt: skip
+COST_GROWTH = 4.0
+"""Elements grow with the third power of 1/size, increments with the first."""
 
 
-def mesh_rows(folder: Path) -> list[dict[str, Any]]:
-    """Return what the finite element runs of a mesh study cost and how far they are from their limit.
+def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
+    """Return what the finite element runs of the mesh study cost and how far they are from their limit.
 
-    `folder` holds <size>/<case>.csv with records beside them, size in mm with p for the point. Errors are against the
-    Richardson extrapolation of the three finest sizes, or against the finest run where there are fewer.
+    `references` holds fe/mesh/<kind>.yaml, with forces on several meshes and their extrapolation, and the records of
+    the runs in use. Times are estimated: the least time per element and increment of any record (the one least
+    disturbed by other work) times elements and increments of the case's run, scaled to the other sizes. The rows'
+    columns are `MESH_COLUMNS`.
     """
-    found: dict[str, list[tuple[float, History, Mapping[str, Any]]]] = {}
-    for path in sorted(folder.glob("*/*.csv")) if folder.is_dir() else []:
-        record = path.with_suffix(".yaml")
-        if not record.is_file():
-            continue
-        try:
-            size = float(path.parent.name.replace("p", "."))
-            found.setdefault(path.stem, []).append((size, History.read_csv(path), yaml.safe_load(read_text(record))))
-        except (ValueError, InputError):
-            continue
+    records = [_record(path) for path in sorted((references / "fe" / engine).glob("*.yaml"))]
+    costs = [1e-6 * float(record["us_per_element_step"]) for record in records if "us_per_element_step" in record]
+    by_case = {record.get("case_id"): record for record in records}
     rows = []
-    for case_id, runs in found.items():
-        runs.sort(key=lambda item: -item[0])
-        values = np.array([[scalars(h).peak_normal_force, scalars(h).normal_impulse] for _, h, _ in runs])
-        limit, against = values[-1], f"the {runs[-1][0]:g} mm run"
-        if len(runs) >= 3:
-            first, second = values[-2] - values[-3], values[-1] - values[-2]
-            ratio = np.clip(np.abs(first / np.where(second == 0.0, 1e-30, second)), 1.5, 8.0)
-            limit, against = values[-1] + second / (ratio - 1.0), "the limit of the three finest"
-        for (size, _, record_data), value in zip(runs, values, strict=True):
+    for path in sorted((references / "fe" / "mesh").glob("*.yaml")):
+        study = _record(path)
+        run_in_use = by_case.get(study.get("case_id"), {})
+        seconds = None
+        if costs and {"elements", "increments"} <= set(run_in_use):
+            seconds = min(costs) * run_in_use["elements"] * run_in_use["increments"]
+        quantities = study.get("quantities", {})
+        normal, impulse = quantities.get("peak_normal_force"), quantities.get("normal_impulse")
+        if normal is None or impulse is None:
+            continue
+        for k, size in enumerate(study["sizes_mm"]):
+            scale = (study["element_size_mm"] / size) ** COST_GROWTH
             entries = (
-                case_id, size, record_data.get("elements"), record_data.get("wall_time_s"), float(value[0]),
-                float(value[1]), *(float(v) for v in value / limit - 1.0), against,
+                study["case_id"], float(size), None if seconds is None else seconds * scale,
+                float(normal["values"][k]), normal["values"][k] / normal["limit"] - 1.0,
+                impulse["values"][k] / impulse["limit"] - 1.0, "error against the limit of three meshes",
             )  # fmt: skip
             rows.append(dict(zip(MESH_COLUMNS, entries, strict=True)))
     return rows
+
+
+def _record(path: Path) -> Mapping[str, Any]:
+    try:
+        data = yaml.safe_load(read_text(path))
+    except (InputError, yaml.YAMLError):
+        return {}
+    return data if isinstance(data, dict) else {}
