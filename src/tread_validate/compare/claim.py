@@ -27,6 +27,8 @@ class Computed:
         None where it cannot be computed; `note` then says why and `status` how it came about.
     case_ids : tuple of str
         The runs behind it.
+    verdict : str or None
+        Where a test of its own has judged it (Table 1); else the published interval decides.
     """
 
     value: float | None
@@ -34,6 +36,7 @@ class Computed:
     status: str = "current"
     note: str = ""
     assumed: tuple[str, ...] = ()
+    verdict: Verdict | None = None
 
 
 @dataclass(frozen=True)
@@ -135,9 +138,8 @@ def is_measured(case: Case) -> bool:
 def judge(published: PublishedValue, kind: str, source: str, computed: Computed) -> Claim:
     """Compare a computed value with what the published one stands for.
 
-    The published interval decides: ``sd`` and ``range`` are first turned into the 95 % interval of the mean (four and
-    two values), and when that is wider than the value itself nothing can be told. ``exists`` asks for more than the
-    lower bound. A value without an interval has to be met to four digits.
+    The published interval decides, unless the computed value brings a verdict. ``exists`` asks for more than the lower
+    bound. A value without an interval has to be met to four digits.
     """
     low, high, note = interval(published)
     value, target = computed.value, published.value
@@ -145,9 +147,8 @@ def judge(published: PublishedValue, kind: str, source: str, computed: Computed)
     note = "; ".join(part for part in (computed.note, note) if part)
     if value is None:
         return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)
-    if _too_wide(published, low, high):
-        note = "; ".join(part for part in (note, "published spread too wide to tell") if part)
-        return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)
+    if computed.verdict is not None:
+        return Claim(published, kind, source, computed, low, high, error, error_type, computed.verdict, note)
     if low is None or high is None:
         if target is None:
             return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)
@@ -171,12 +172,6 @@ def interval(published: PublishedValue) -> tuple[float | None, float | None, str
             ends = mean_interval(value, (high - low) / 2.0**0.5, 2)
             return *ends, "95 % interval of the published mean of 2"
     return low, high, ""
-
-
-def _too_wide(published: PublishedValue, low: float | None, high: float | None) -> bool:
-    if published.spread_kind not in ("sd", "range") or published.value is None or low is None or high is None:
-        return False
-    return high - low > 2.0 * abs(published.value)
 
 
 def _error(value: float | None, target: float | None) -> tuple[float | None, str]:

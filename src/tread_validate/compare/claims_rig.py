@@ -8,7 +8,9 @@ import numpy as np
 
 from ..study import Case
 from .claim import Compute, Computed, Evidence, nothing
+from .differences import differences
 from .regression import EXCLUDED_INTERFERENCES
+from .rows import AGREES, CANNOT_TELL, DISAGREES, Verdict
 from .runs import SourceRun
 from .scalars import contact_window
 
@@ -164,12 +166,31 @@ def _pressure_limit(evidence: Evidence, source: str) -> Computed:
     return Computed(1e-6 * highest, (case.case_id,), note=f"highest of {len(known)}", assumed=case.assumed())
 
 
-def _table1(name: str, shape: str) -> Compute:
+def _table1(name: str, shape: str, origin: str) -> Compute:
+    """Compare a mean coefficient with a printed one by Welch's test, as in the table of differences.
+
+    A significant difference disagrees. Without one, the two agree if the difference is known to better than the printed
+    value itself; otherwise nothing can be told.
+    """
+
     def compute(evidence: Evidence, source: str) -> Computed:
-        row = evidence.mean(source, shape, name)
+        row, printed = evidence.mean(source, shape, name), evidence.mean(f"{origin}:published", shape, name)
         if row is None or row.value is None:
             return nothing(row.note if row is not None else f"no {shape} on the rig in the study")
-        return Computed(100.0 * row.value, assumed=tuple(row.assumed.split("; ")) if row.assumed else ())
+        assumed = tuple(row.assumed.split("; ")) if row.assumed else ()
+        if printed is None or printed.value is None:
+            return nothing("Table 1 is not there")
+        (found,) = differences([printed, row])
+        if found.ci_low is None or found.ci_high is None or found.p_value is None:
+            return Computed(100.0 * row.value, note=found.note, assumed=assumed, verdict=CANNOT_TELL)
+        verdict: Verdict = CANNOT_TELL
+        if found.significant:
+            verdict = DISAGREES
+        elif 0.5 * (found.ci_high - found.ci_low) <= abs(printed.value):
+            verdict = AGREES
+        note = f"Welch test of the difference: p = {found.p_value:.2g}, 95 % interval "
+        note += f"{100 * found.ci_low:.2g} to {100 * found.ci_high:.2g}"
+        return Computed(100.0 * row.value, note=note, assumed=assumed, verdict=verdict)
 
     return compute
 
@@ -235,7 +256,7 @@ RUNS: dict[str, Compute] = {
 
 # from regressions: one value for every source with coefficients
 TABLE_1: dict[str, Compute] = {
-    f"table1_{name}_{shape}_{origin}": _table1(name, shape)
+    f"table1_{name}_{shape}_{origin}": _table1(name, shape, origin)
     for name in ("a_v", "a_theta")
     for shape in SHAPES
     for origin in ("rig", "fe")

@@ -7,8 +7,10 @@ from typing import Any
 
 import pytest
 
-from tread_validate.compare.claim import Computed, interval, judge
+from tread_validate.compare.claim import Computed, Evidence, interval, judge
+from tread_validate.compare.claims_rig import TABLE_1
 from tread_validate.compare.ensemble import summarise
+from tread_validate.compare.regression import Coefficient
 from tread_validate.compare.rows import MetricRow
 from tread_validate.reference import PublishedValue
 
@@ -37,8 +39,6 @@ def test_a_printed_standard_deviation_becomes_the_interval_of_the_mean() -> None
     low, high, note = interval(TABLE)
     assert (low, high) == pytest.approx((3.6 - 3.18245 * 0.9, 3.6 + 3.18245 * 0.9), rel=1e-5)
     assert "mean of 4" in note
-    assert judge(TABLE, "model", "x", Computed(6.4)).verdict == "agrees"
-    assert judge(TABLE, "model", "x", Computed(6.5)).verdict == "disagrees"
 
 
 def test_a_printed_range_of_two_becomes_the_interval_of_their_mean() -> None:
@@ -48,11 +48,31 @@ def test_a_printed_range_of_two_becomes_the_interval_of_their_mean() -> None:
     assert (low, high) == pytest.approx((-0.60 - 0.254124, -0.60 + 0.254124), rel=1e-5)
 
 
-def test_a_published_value_that_is_less_sure_than_itself_tells_nothing() -> None:
-    """1.4 (1.4): the interval of the mean is +-2.2, wider than the value; nothing agrees and nothing disagrees."""
-    row = replace(TABLE, value=1.4, low=0.0, high=2.8)
-    for value in (1.4, 3.0, 50.0):
-        assert judge(row, "model", "x", Computed(value)).verdict == "cannot tell"
+def evidence_of(printed_sd: float, computed: float, computed_sd: float) -> Evidence:
+    """Return evidence with one printed a_v of 3.6 % s/m and one computed one, four sets each."""
+
+    def mean(source: str, value: float, sd: float) -> Coefficient:
+        return Coefficient(
+            source, "rectangle", "a_v", "mean", 0.01 * value, "s/m", 0.01 * sd, "sd", None, None, None, None, 0.95, 4,
+            "current",
+        )  # fmt: skip
+
+    rows = (mean("rig:published", 3.6, printed_sd), mean("spring:paper", computed, computed_sd))
+    return Evidence(None, (), {}, {}, rows, {}, {})  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("printed_sd", "computed", "expected"),
+    [(1.0, 3.8, "agrees"), (1.0, 8.0, "disagrees"), (8.0, 3.8, "cannot tell"), (8.0, 30.0, "disagrees")],
+)
+def test_table_1_is_judged_by_the_test_of_its_differences(printed_sd: float, computed: float, expected: str) -> None:
+    """Printed 3.6 against computed 3.8 (sd 0.5): agrees where the difference is known to better than 3.6, cannot be
+    told where the printed scatter of 8 hides everything; 8.0 and 30.0 are far outside either interval.
+    """
+    found = TABLE_1["table1_a_v_rectangle_rig"](evidence_of(printed_sd, computed, 0.5), "spring:paper")
+    assert found.value == pytest.approx(computed)
+    assert found.verdict == expected
+    assert judge(TABLE, "model", "spring:paper", found).verdict == expected
 
 
 def test_an_input_has_to_be_the_printed_number() -> None:
