@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import errno
+from pathlib import Path
+
 import pytest
 
 from tread_validate.errors import InputError
@@ -35,3 +38,16 @@ def test_byte_order_mark_is_not_part_of_the_text(tmp_path):
     path = tmp_path / "text"
     path.write_bytes(b"\xef\xbb\xbfhello")
     assert read_text(path) == "hello"
+
+
+def test_full_disk_is_said_with_the_file(tmp_path, monkeypatch):
+    """The error of a write has no file name of its own; the one that was to be written is put in."""
+
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_text", full)
+    with pytest.raises(OSError, match="No space left") as fault:
+        write_text(tmp_path / "table.csv", "1\n")
+    assert fault.value.filename == str(tmp_path / "table.csv")
+    assert list(tmp_path.iterdir()) == []
