@@ -26,7 +26,7 @@ HOURGLASS_PATTERNS = np.stack(
         CORNERS[:, 0] * CORNERS[:, 1] * CORNERS[:, 2],
     ]
 )
-# Stiffness of an hourglass mode of amplitude q: energy (c/2) G V (sum of squared gradients) q^2, c by control.
+# c in the energy (c/2) G V (sum of squared gradients) q^2 of an hourglass mode of amplitude q.
 HOURGLASS_COEFFICIENT = 0.05
 
 
@@ -210,8 +210,7 @@ def _hourglass_stiffness(
 ) -> Floats:
     """Return the stiffness of each element's hourglass amplitudes.
 
-    STIFFNESS takes the instantaneous shear modulus, RELAX STIFFNESS the long-term one; ENHANCED takes the stiffness
-    that a bending mode of a brick has under full integration.
+    STIFFNESS takes the instantaneous shear modulus, RELAX STIFFNESS the long-term one.
     """
     out = np.zeros(section_of.size)
     squares = (gradients**2).sum(axis=(1, 2)) * volume
@@ -219,11 +218,8 @@ def _hourglass_stiffness(
         mine = section_of == number
         shear, _ = section.material.shear_and_bulk()
         relaxed = shear * (1.0 - float(section.material.prony[:, 0].sum()))
-        if section.hourglass == "ENHANCED":
-            coefficient, modulus = 4.0 / 3.0, relaxed
-        else:
-            coefficient, modulus = HOURGLASS_COEFFICIENT, shear if section.hourglass == "STIFFNESS" else relaxed
-        out[mine] = section.hourglass_scale * coefficient * modulus * squares[mine]
+        modulus = shear if section.hourglass == "STIFFNESS" else relaxed
+        out[mine] = section.hourglass_scale * HOURGLASS_COEFFICIENT * modulus * squares[mine]
     return out
 
 

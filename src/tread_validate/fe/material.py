@@ -66,7 +66,7 @@ class Section:
     Attributes
     ----------
     hourglass : str
-        STIFFNESS, RELAX STIFFNESS or ENHANCED.
+        STIFFNESS or RELAX STIFFNESS.
     hourglass_scale, linear_scale, quadratic_scale : float
         Factors of the section controls on hourglass stiffness and on both bulk viscosities.
     """

@@ -50,7 +50,7 @@ SUBSET: dict[str, Keyword] = {
     "TRS": Keyword("model", {"DEFINITION": ("WLF",)}),
     "SOLID SECTION": Keyword("model", {"ELSET": ANY, "MATERIAL": ANY, "CONTROLS": ANY}, ("ELSET", "MATERIAL")),
     "SECTION CONTROLS": Keyword(
-        "model", {"NAME": ANY, "HOURGLASS": ("STIFFNESS", "RELAX STIFFNESS", "ENHANCED")}, ("NAME",)
+        "model", {"NAME": ANY, "HOURGLASS": ("STIFFNESS", "RELAX STIFFNESS")}, ("NAME",)
     ),
     "RIGID BODY": Keyword(
         "model", {"REF NODE": ANY, "TIE NSET": ANY, "PIN NSET": ANY, "ANALYTICAL SURFACE": ANY}, ("REF NODE",)

@@ -91,6 +91,7 @@ def test_good_deck_is_read(tmp_path: Path) -> None:
         ("*FRICTION\n0.5,", "*FRICTION, USER=FRIC, PROPERTIES=2\n0.5,", "PROPERTIES=2"),
         ("*FRICTION\n0.5,", "*FRICTION\n0.5, 1.", "one constant coefficient"),
         ("MECHANICAL CONSTRAINT=KINEMATIC", "MECHANICAL CONSTRAINT=PENALTY", "got PENALTY, expected KINEMATIC"),
+        ("*MATERIAL", "*SECTION CONTROLS, NAME=C, HOURGLASS=ENHANCED\n*MATERIAL", "got ENHANCED"),
         ("NLGEOM=YES", "NLGEOM=NO", "got NO, expected YES"),
         ("TOP, 3, 3, -0.01", "NOWHERE, 3, 3, -0.01", r"deck\.inp:\d+: got node set NOWHERE"),
         ("TOP, 3, 3, -0.01", "TOP, 3, 7, -0.01", "degrees of freedom 1 to 6"),
