@@ -96,7 +96,7 @@ Change = Callable[[], tuple[Forces, Forces]]
 def _effects(case: Case) -> list[tuple[str, str, str, Change]]:
     base = CoupledSettings()
     small = replace(base, finite_strain=False)
-    coarse = replace(base, body=BodySettings(2.0 * MM, 6))
+    coarse = replace(base, body=BodySettings(2.0 * MM, 8))
     raw = replace(base, mesh_correction=False)
 
     @cache

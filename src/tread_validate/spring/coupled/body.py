@@ -35,7 +35,7 @@ class BodySettings:
     """
 
     face_size: float = 1.0 * MM
-    layers: int = 8
+    layers: int = 12
     refinement: float = 1.5
 
 

@@ -16,7 +16,7 @@ from .roll import CoupledSettings, FacePass, roll
 
 Array = NDArray[np.float64]
 
-COARSE = CoupledSettings(body=BodySettings(face_size=2.0 * MM, layers=6), step=0.5 * MM)
+COARSE = CoupledSettings(body=BodySettings(face_size=2.0 * MM, layers=8))
 """A face for thousands of runs."""
 SAMPLES = 1500
 """Rows of a record per contact duration: the clock is finer than the solver's steps and is filled by interpolation."""
