@@ -42,8 +42,10 @@ def heatmap(tables: Tables, views: tuple[CaseView, ...], marks: Marks) -> tuple[
     """
     frame = tables.errors
     pairs = list(dict.fromkeys(zip(frame["predicted_source"], frame["reference_source"], strict=True)))
-    choices: list[str] = []
+    choices: dict[str, list[tuple[int, str]]] = {}
     data: list[dict[str, Any]] = []
+    known = {(row["predicted_source"], row["reference_source"]) for row in records(frame) if _shown(row) is not None}
+    pairs = [pair for pair in pairs if pair in known] or pairs[:1]
     for quantity, metric in HEAT:
         own = records(frame[(frame["quantity"] == quantity) & (frame["metric"] == metric)])
         found = [(row, value) for row in own if (value := _shown(row)) is not None]
@@ -58,7 +60,7 @@ def heatmap(tables: Tables, views: tuple[CaseView, ...], marks: Marks) -> tuple[
                 if (row["predicted_source"], row["reference_source"]) == (predicted, reference)
             }
             names = f"{wording.source(str(predicted))} against {wording.source(str(reference))}"
-            choices.append(f"{wording.quantity(quantity, metric)} – {names}")
+            choices.setdefault(names, []).append((len(data), wording.quantity(quantity, metric)))
             low, high = _scale_ends(own[0], limits)
             data.append({"cells": cells, "lowText": low, "highText": high})
     grid = [_facet(facet, data[0]["cells"] if data else {}) for facet in facets(views)]
@@ -122,6 +124,7 @@ def scatter(
         if not len(own):
             continue
         series = []
+        several = own["reference_source"].nunique() > 1
         for predicted, reference in dict.fromkeys(zip(own["predicted_source"], own["reference_source"], strict=True)):
             rows = own[(own["predicted_source"] == predicted) & (own["reference_source"] == reference)]
             points = [
@@ -135,7 +138,8 @@ def scatter(
             look = looks[str(predicted)]
             series.append(
                 {
-                    "label": f"{wording.source(str(predicted))} against {wording.source(str(reference))}",
+                    "label": wording.source(str(predicted))
+                    + (f" against {wording.source(str(reference))}" if several else ""),
                     "ids": [case for case, _, _ in points],
                     "labels": [_escape(labels.get(case, case)) for case, _, _ in points],
                     "x": [_rounded(x) for _, x, _ in points],

@@ -31,7 +31,6 @@ TABLES = (
     ("sobol", "Sobol indices"),
     ("stiffness", "Stiffness of the bonded block, solved and in closed form"),
     ("fe_meshes", "Cost and error of the FE meshes"),
-    ("errors", "Errors of every rung and case"),
 )
 
 

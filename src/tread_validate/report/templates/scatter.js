@@ -9,23 +9,23 @@ TV.scatter = (function () {
     if (all.length) {
       const low = 0.85 * Math.min(...all), high = 1.18 * Math.max(...all);
       ticks = TV.logTicks(low, high);
-      const line = (factor, name, style) => ({ type: "scatter", mode: "lines", x: [low, high], y: [factor * low, factor * high], name,
-        line: style, hoverinfo: "skip" });
+      const line = (factor, name, style) => ({ type: "scatter", mode: "lines", x: [low, high], y: [factor * low, factor * high],
+        name, legendgroup: name, showlegend: name === "equal", line: style, hoverinfo: "skip" });
       traces.push(line(1, "equal", { color: "#000", width: 1 }));
       for (const series of chosen.series) {
         if (series.bias !== null) {
-          traces.push(line(series.bias, series.label + ": bias", { color: series.color, width: 1.6, dash: "dash" }));
+          traces.push(line(series.bias, series.label, { color: series.color, width: 1.6, dash: "dash" }));
           if (series.sigma !== null) {
             const spread = Math.exp(2 * series.sigma);
             traces.push({ type: "scatter", mode: "lines", fill: "toself", hoverinfo: "skip", line: { width: 0 },
-              fillcolor: series.color + "33", name: series.label + ": \u00b12\u03c3",
+              fillcolor: series.color + "33", name: series.label, legendgroup: series.label, showlegend: false,
               x: [low, high, high, low], y: [low * series.bias * spread, high * series.bias * spread, high * series.bias / spread, low * series.bias / spread] });
           }
         }
       }
     }
     for (const series of chosen.series) {
-      traces.push({ type: "scatter", mode: "markers", x: series.x, y: series.y, text: series.labels, customdata: series.ids, name: series.label,
+      traces.push({ type: "scatter", mode: "markers", x: series.x, y: series.y, text: series.labels, customdata: series.ids, name: series.label, legendgroup: series.label,
         marker: { color: series.color, symbol: series.symbol, size: 8, line: { color: "#fff", width: 0.8 } },
         hovertemplate: "%{text}<br>reference %{x:.4g}, predicted %{y:.4g}<extra>%{fullData.name}</extra>" });
     }
