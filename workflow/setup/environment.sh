@@ -29,3 +29,8 @@ echo "Installing pinned packages (a few minutes the first time)"
     setuptools wheel
 "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --no-build-isolation \
     --constraint constraints.txt --editable "$requirement"
+echo "Compiling the spring models' kernels"
+scratch=$(mktemp -d)
+"$folder/bin/tread-validate" spring config/study.yaml --case belt-simplified-60c-0p2mm-16p7mps-creep0p3 \
+    --variant paper,bonded,coupled -o "$scratch" >/dev/null
+rm -rf "$scratch"
