@@ -278,34 +278,35 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 w[(_S + c) * n + i] = ratio * e
         t = 0
         while t + 4 <= terms and same:
-            # four terms at a time: the strain increment and the sum pass through memory once
-            hb = (b * terms + t) * 6 * n
+            # four terms at a time: the strain increment and the sum pass through memory once. Histories are taken as
+            # slices, whose indices the compiler knows not to be negative; else it would not make vectors of them.
+            own = h1[(b * terms + t) * 6 * n : (b * terms + t + 4) * 6 * n]
             fade0, fade1, fade2, fade3 = decay[k, t], decay[k, t + 1], decay[k, t + 2], decay[k, t + 3]
             grow0, grow1, grow2, grow3 = gain[k, t, 0], gain[k, t + 1, 0], gain[k, t + 2, 0], gain[k, t + 3, 0]
             for i in range(6 * n):
                 d = w[_D * n + i]
-                q0 = fade0 * h1[hb + i] + grow0 * d
-                q1 = fade1 * h1[hb + 6 * n + i] + grow1 * d
-                q2 = fade2 * h1[hb + 12 * n + i] + grow2 * d
-                q3 = fade3 * h1[hb + 18 * n + i] + grow3 * d
-                h1[hb + i] = q0
-                h1[hb + 6 * n + i] = q1
-                h1[hb + 12 * n + i] = q2
-                h1[hb + 18 * n + i] = q3
+                q0 = fade0 * own[i] + grow0 * d
+                q1 = fade1 * own[6 * n + i] + grow1 * d
+                q2 = fade2 * own[12 * n + i] + grow2 * d
+                q3 = fade3 * own[18 * n + i] + grow3 * d
+                own[i] = q0
+                own[6 * n + i] = q1
+                own[12 * n + i] = q2
+                own[18 * n + i] = q3
                 w[_S * n + i] += (q0 + q1) + (q2 + q3)
             t += 4
         while t < terms:
-            hb = (b * terms + t) * 6 * n
+            own = h1[(b * terms + t) * 6 * n : (b * terms + t + 1) * 6 * n]
             fade = decay[k, t]
             grow = gain[k, t, 0]
             for i in range(5 * n):
-                q = fade * h1[hb + i] + grow * w[_D * n + i]
-                h1[hb + i] = q
+                q = fade * own[i] + grow * w[_D * n + i]
+                own[i] = q
                 w[_S * n + i] += q
             grow = gain[k, t, 1]
             for i in range(n):
-                q = fade * h1[hb + 5 * n + i] + grow * w[(_D + 5) * n + i]
-                h1[hb + 5 * n + i] = q
+                q = fade * own[5 * n + i] + grow * w[(_D + 5) * n + i]
+                own[5 * n + i] = q
                 w[(_S + 5) * n + i] += q
             t += 1
         # stress in the rotated frame, bulk viscosity, first Piola-Kirchhoff stress times volume

@@ -177,6 +177,8 @@ def _set(block: Block, sets: dict[str, Ints], labels: Ints, what: str) -> Ints:
             step = line.integer_at(2, "increment", 1)
             if step < 1 or last < first or (last - first) % step:
                 raise InputError(line.where, line.text, "first, last, increment with last = first + k increment")
+            if (last - first) // step >= labels.size:
+                raise InputError(line.where, line.text[:40], f"at most {labels.size} labels, as many as there are")
             parts.append(_index(np.arange(first, last + 1, step, dtype=np.int64), labels, line.where, what))
         else:
             parts += [_members(text, sets, labels, line.where, what) for text in line.fields if text]

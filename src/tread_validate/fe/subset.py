@@ -49,9 +49,7 @@ SUBSET: dict[str, Keyword] = {
     "VISCOELASTIC": Keyword("model", {"TIME": ("PRONY",)}, ("TIME",)),
     "TRS": Keyword("model", {"DEFINITION": ("WLF",)}),
     "SOLID SECTION": Keyword("model", {"ELSET": ANY, "MATERIAL": ANY, "CONTROLS": ANY}, ("ELSET", "MATERIAL")),
-    "SECTION CONTROLS": Keyword(
-        "model", {"NAME": ANY, "HOURGLASS": ("STIFFNESS", "RELAX STIFFNESS")}, ("NAME",)
-    ),
+    "SECTION CONTROLS": Keyword("model", {"NAME": ANY, "HOURGLASS": ("STIFFNESS", "RELAX STIFFNESS")}, ("NAME",)),
     "RIGID BODY": Keyword(
         "model", {"REF NODE": ANY, "TIE NSET": ANY, "PIN NSET": ANY, "ANALYTICAL SURFACE": ANY}, ("REF NODE",)
     ),
