@@ -129,7 +129,7 @@ def compose(study_path: Path, places: Places) -> Report:
         Section("material", "Compound and friction", figure_items(drawn.material())),
         Section("geometry", "Belt, rig and mesh", figure_items(drawn.geometry())),
         Section("route", "From raw data to model input", route_items(study, drawn)),
-        ladder_section(places.ladder, places.out / "figures", marks),
+        ladder_section(places.ladder, study, places.out / "figures", marks),
         inputs_section(tables, marks),
         provenance_section(tables),
     ]

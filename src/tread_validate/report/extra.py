@@ -10,7 +10,7 @@ import pandas as pd
 
 from ..errors import InputError
 from ..files import read_text
-from ..study import load_yaml
+from ..study import LoadedStudy, conditions_digest, load_yaml
 from . import wording
 from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table
 from .inputs import plain_table
@@ -34,13 +34,18 @@ TABLES = (
 )
 
 
-def ladder_section(folder: Path | None, drawn: Path, marks: Marks) -> Section | None:
-    """Return the model ladder's figures and tables as it wrote them; None where it has not run."""
+def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: Marks) -> Section | None:
+    """Return the model ladder's figures and tables as it wrote them; None where it has not run on this study."""
     if folder is None or not folder.is_dir():
+        return None
+    record = _record(folder / "record.yaml")
+    if record["study"] != study.model.name:
         return None
     items: list[Item] = [
         Paragraph("From the simplest spring model to the finest: what each rung adds, and what it costs.")
     ]
+    if record["study_digest"] != conditions_digest(study.cases()):
+        items.append(Paragraph("Stale: made when the study had other conditions. Make the ladder anew."))
     tables = {name: read_table(folder / f"{name}.csv", ()) for name, _ in TABLES if (folder / f"{name}.csv").is_file()}
     figures = []
     for name, title, caption in FIGURES:
@@ -63,6 +68,13 @@ def ladder_section(folder: Path | None, drawn: Path, marks: Marks) -> Section | 
         if name in tables:
             items.append(plain_table(f"ladder-{name}", title, tables[name], marks, folded=True))
     return Section("ladder", "The model ladder", tuple(items)) if tables else None
+
+
+def _record(path: Path) -> dict[str, Any]:
+    record = load_yaml(read_text(path), path)
+    if not isinstance(record, dict) or not {"study", "study_digest"} <= set(record):
+        raise InputError(path, "no such record", "a mapping with study and study_digest")
+    return record
 
 
 def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:

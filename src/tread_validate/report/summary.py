@@ -158,7 +158,13 @@ def _claims(tables: Tables, marks: Marks) -> Verdict:
     judged = tables.claims[(tables.claims["kind"] == "model") & (tables.claims["status"] != "not_compared")]
     counts = count_verdicts(judged)
     statements = wording.plural(judged["claim_id"].nunique(), "published statement")
-    text = f"{statements} predicted here, some by more than one model. {_counted(counts)}."
+    per_source = []
+    for name in dict.fromkeys(str(source) for source in judged["source"]):
+        own = count_verdicts(judged[judged["source"] == name])
+        told = f"{own['agrees']} agree, {own['disagrees']} disagree"
+        open_ = f", {own['cannot tell']} cannot be told" if own["cannot tell"] else ""
+        per_source.append(f"{wording.source(name)}: {told}{open_}")
+    text = f"{statements} predicted here. {'; '.join(per_source)}."
     tuned = tables.claims.loc[tables.claims["kind"] == "tuned", "claim_id"].nunique()
     if tuned:
         text += f" Not counted: {tuned} that the stand-in compound was made to meet."

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from .. import wording
 from ..cases import CaseView, facets
@@ -64,7 +65,8 @@ def heat(
 
     size = (1.5 * WIDTH, 0.32 * len(rows) + 0.4)
     key = f"heat-{pair[0]}-{pair[1]}".replace(":", "-")
-    return draw(folder, key, f"Error of the peak normal force, {names}", "", paint, marks, size, wide=True)
+    caption = f"Colours from blue, {wording.percent(-limit)}, over white, none, to orange, {wording.percent(limit)}."
+    return draw(folder, key, f"Error of the peak normal force, {names}", caption, paint, marks, size, wide=True)
 
 
 def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: str, marks: tuple[Mark, ...]) -> Drawn:
@@ -109,6 +111,10 @@ def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: s
             axes.plot(x, y, look.marker, ms=4, color=look.color, mec="white", mew=0.5, label=label)
         unit = str(own["unit"].iloc[0])
         axes.set(xscale="log", yscale="log", xlabel=f"reference, {unit}", ylabel=f"predicted, {unit}")
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if ends[1] < 50.0 * ends[0] else (1.0,)))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axis.set_minor_formatter(NullFormatter())
         axes.legend()
 
     caption = "Line: equal; dashed: bias δ; shaded: bias times exp(±2σ)."
