@@ -9,7 +9,7 @@ BIN := $(VENV)/bin
 SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --profile workflow/profiles/default --cores $(CORES) --config study=$(STUDY)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium chromium-driver poppler-utils
 
-.PHONY: help report test lint verify reference mesh-study bench docs test-cluster test-robustness clean
+.PHONY: help report test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean
 
 help: ## Show this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -37,6 +37,9 @@ reference: $(BIN)/.installed gfortran ## Run the embedded FE engine for every ca
 
 mesh-study: $(BIN)/.installed gfortran ## Three meshes of one belt and one rig case, extrapolated
 	@$(SNAKEMAKE) mesh_study
+
+ladder: $(BIN)/.installed ## Run the model ladder anew: error and cost of every rung, effects, sensitivity
+	@$(SNAKEMAKE) ladder
 
 bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory
 	@for file in benchmarks/*.py; do echo "== $$file"; $(BIN)/python $$file || exit 1; done

@@ -18,6 +18,7 @@ include: "workflow/rules/fe.smk"
 include: "workflow/rules/engines.smk"
 include: "workflow/rules/reference.smk"
 include: "workflow/rules/compare.smk"
+include: "workflow/rules/ladder.smk"
 include: "workflow/rules/report.smk"
 
 

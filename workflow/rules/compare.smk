@@ -9,6 +9,7 @@ REFERENCE_FILES = sorted(
 # Only a baseline of this study says anything about its tables; without one nothing is checked.
 BASELINE = Path(REPORTS) / "baseline" / "baseline.yaml"
 CHECKED = BASELINE.is_file() and f"study: {study.model.name}\n" in BASELINE.read_text()
+LADDER_FILES = sorted(str(path) for path in Path(REFERENCES).glob("ladder/*.csv"))
 
 
 rule tables:

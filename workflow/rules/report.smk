@@ -8,6 +8,7 @@ rule report:
         decks=rules.decks.output.mesh,
         package=rules.references.input.package,
         references=REFERENCE_FILES,
+        ladder=LADDER_FILES,
     output:
         page=report(
             REPORT_PAGE, caption="../report/page.rst", category="Validation report"

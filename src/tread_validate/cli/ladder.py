@@ -27,14 +27,27 @@ def command(
 
     Example: tread-validate ladder config/study.yaml --decks fe_inputs -o results/ladder
     """
+    import yaml
+
     from ..errors import InputError
+    from ..files import write_text
     from ..ladder.build import PARTS, Folders, build
-    from ..study import load_study
+    from ..provenance import commit, version
+    from ..study import conditions_digest, load_study
 
     if samples & (samples - 1):
         raise InputError("--samples", samples, "a power of two")
     folders = Folders(references, decks, output)
-    tables = build(load_study(study), folders, typer.echo, samples, part or PARTS)
+    loaded = load_study(study)
+    tables = build(loaded, folders, typer.echo, samples, part or PARTS)
+    record = {
+        "study": loaded.model.name,
+        "study_digest": conditions_digest(loaded.cases()),
+        "version": version(),
+        "commit": commit(),
+        "sobol_base_sample": samples,
+    }
+    write_text(output / "record.yaml", yaml.safe_dump(record, sort_keys=False))
     for row in tables.get("pareto", []):
         error = row["mean_abs_peak_normal_force_error"]
         told = "no current reference" if error is None else f"mean error of peak N {100 * error:.1f} %"

@@ -25,7 +25,7 @@ def command(
     ] = None,
     ladder: Annotated[
         Path | None,
-        typer.Option(help="folder of the model ladder's tables [default: ladder beside the tables, if there]"),
+        typer.Option(help="folder of the model ladder's tables [default: ladder/ among the references]"),
     ] = None,
 ) -> None:
     """Write the report: index.html (one self-contained file), report.pdf, tables/ and figures/.
@@ -35,6 +35,6 @@ def command(
     from ..report import build_report
 
     delta = delta or (tables / "delta.csv" if (tables / "delta.csv").is_file() else None)
-    ladder = ladder or tables.parent / "ladder"
+    ladder = ladder or references / "ladder"
     build_report(study, tables, spring, references / "fe", decks, out, baseline_delta=delta, ladder_dir=ladder)
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

@@ -1,6 +1,6 @@
 """What is to be run: a study file, its models and its cases."""
 
-from .case import Case, with_mesh
+from .case import Case, conditions_digest, with_mesh
 from .load import LoadedStudy, load_study, load_yaml
 from .models import (
     Block,
@@ -30,6 +30,6 @@ from .models import (
 __all__ = [
     "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FractionalZener", "Friction",
     "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "PronyCompound", "PronyFile", "PronyTerm",
-    "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf", "load_study", "load_yaml",
-    "with_mesh",
+    "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf", "conditions_digest",
+    "load_study", "load_yaml", "with_mesh",
 ]  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -147,3 +147,8 @@ def with_mesh(case: Case, settings: Mapping[str, object]) -> Case:
             f"deck.{fault['loc'][0]}", fault["input"], fault["msg"].removeprefix("Input should be ")
         ) from None
     return replace(case, deck=deck)
+
+
+def conditions_digest(cases: Iterable[Case]) -> str:
+    """Return one SHA-256 for the conditions of all cases, in hex: labels, notes and variants do not change it."""
+    return hashlib.sha256("\n".join(f"{case.case_id} {case.digest()}" for case in cases).encode()).hexdigest()
