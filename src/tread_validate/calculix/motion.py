@@ -154,7 +154,7 @@ def read_motions(
             row = len(mount) + 1
             mount[row], motions[row] = tuple(nodes), body
     for target in dict.fromkeys(name for name, _ in prescribed.by_target):
-        if target in sets and target != road_reference and target not in {reference for reference, _ in tied}:
+        if sets.get(target) and target != road_reference and target not in {reference for reference, _ in tied}:
             row = len(mount) + 1
             mount[row] = sets[target]
             travel = (prescribed.of(target, 1), prescribed.of(target, 2))

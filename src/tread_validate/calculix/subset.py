@@ -45,6 +45,7 @@ READ = {
     "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "RIGID BODY", "AMPLITUDE", "MATERIAL", "ELASTIC", "SOLID SECTION",
     "SURFACE INTERACTION", "FRICTION", "INITIAL CONDITIONS", "BOUNDARY", "STEP", "DYNAMIC", "CONTACT PAIR",
 }  # fmt: skip
+MOST_MEMBERS = 5_000_000
 COULOMB_ROUTINE = re.compile(r"^\s+fricmu\s*=\s*props\(2\)\s*$", re.MULTILINE)
 
 
@@ -179,6 +180,8 @@ def _members(block: Block) -> tuple[int, ...]:
             step = line.integer_at(2, "a step", 1)
             if step < 1 or last < first:
                 raise InputError(line.where, line.text[:40], "first <= last and a step of 1 or more")
+            if (last - first) // step > MOST_MEMBERS:
+                raise InputError(line.where, line.text[:40], f"at most {MOST_MEMBERS} members")
             members += range(first, last + 1, step)
         return tuple(members)
     return tuple(line.integer_at(i, "a number") for line in block.data for i in range(len(line.fields)))

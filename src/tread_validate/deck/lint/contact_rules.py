@@ -7,7 +7,7 @@ import math
 from ...inp import Block, DataLine, Deck
 from .findings import Findings
 from .names import Names
-from .syntax import is_number
+from .syntax import is_number, number
 from .table import FACES, KEYWORDS
 
 SHELL_FACES = frozenset({"SPOS", "SNEG", ""})
@@ -115,7 +115,7 @@ def _numbers(line: DataLine, first: int, count: int) -> list[float] | None:
     fields = line.fields[first:]
     if len(fields) != count or not all(is_number(text) for text in fields):
         return None
-    return [float(text) for text in fields]
+    return [number(text) for text in fields]
 
 
 def _check_pair(block: Block, names: Names, analytical: set[str], findings: Findings) -> None:
@@ -185,7 +185,7 @@ def _check_friction(deck: Deck, names: Names, findings: Findings) -> None:
                         "VFRIC with MECHANICAL CONSTRAINT=PENALTY is not to be trusted: KINEMATIC",
                     )
         elif block.data and block.data[0].fields[0] and is_number(block.data[0].fields[0]):
-            value = float(block.data[0].fields[0])
+            value = number(block.data[0].fields[0])
             if value < 0.0:
                 findings.add(block.data[0], "friction-value", f"friction coefficient {value:g}: expected >= 0")
 

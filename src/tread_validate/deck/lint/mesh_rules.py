@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ...inp import Block, Deck
 from .findings import Findings
 from .names import Names
-from .syntax import is_number
+from .syntax import is_number, number
 from .table import HEXAHEDRA, KEYWORDS, SECTION_KEYWORDS, SECTIONLESS
 
 MOST = 5
@@ -66,7 +66,8 @@ def _least_jacobian(corners: NDArray[np.float64]) -> NDArray[np.float64]:
                 CORNERS[:, 2] * factor[:, 0] * factor[:, 1],
             ]
         )
-        least = np.minimum(least, np.linalg.det(np.einsum("dk,mkx->mdx", gradient, corners)))
+        with np.errstate(all="ignore"):  # absurd coordinates: the determinant is then no number, and is reported
+            least = np.minimum(least, np.linalg.det(np.einsum("dk,mkx->mdx", gradient, corners)))
     return least
 
 
@@ -114,12 +115,12 @@ def _check_material(deck: Deck, names: Names, name: str, block: Block, findings:
     for keyword, least in (("DENSITY", 0.0), ("ELASTIC", 0.0)):
         for line in options[keyword].data[:1] if keyword in options else ():
             value = line.fields[0]
-            if is_number(value) and float(value.replace("D", "E").replace("d", "e")) <= least:
+            if is_number(value) and number(value) <= least:
                 findings.add(line, "material-value", f"*{keyword} {value}: expected > 0")
     if "ELASTIC" in options and (options["ELASTIC"].parameters.get("TYPE") or "ISOTROPIC") == "ISOTROPIC":
         for line in options["ELASTIC"].data:
             ratio = line.fields[1] if len(line.fields) > 1 else "0"
-            if is_number(ratio) and not -1.0 < float(ratio or 0.0) < 0.5:
+            if is_number(ratio) and not -1.0 < number(ratio or "0") < 0.5:
                 findings.add(line, "material-value", f"Poisson's ratio {ratio}: expected more than -1, less than 0.5")
     if "VISCOELASTIC" in options:
         _check_prony(options["VISCOELASTIC"], findings)
@@ -151,7 +152,7 @@ def _check_prony(block: Block, findings: Findings) -> None:
             if len(fields) != 3:
                 findings.add(line, "field-count", f"Prony term: {len(fields)} fields, expected g, k, tau")
             continue
-        g, k, tau = (float(text) if text else 0.0 for text in fields)
+        g, k, tau = (number(text) if text else 0.0 for text in fields)
         if g < 0.0 or k < 0.0 or tau <= 0.0:
             findings.add(line, "prony", f"Prony term {line.text}: expected g >= 0, k >= 0, tau > 0")
         shear, bulk = shear + g, bulk + k

@@ -7,7 +7,7 @@ from itertools import pairwise
 from ...inp import Block, DataLine, Deck
 from .findings import Findings
 from .names import Names
-from .syntax import is_number
+from .syntax import is_number, number
 
 FIXITIES = frozenset({"ENCASTRE", "PINNED", "XSYMM", "YSYMM", "ZSYMM", "XASYMM", "YASYMM", "ZASYMM", "NOWARP"})
 Pairs = list[tuple[float, float]]
@@ -51,10 +51,10 @@ def _amplitude(block: Block, findings: Findings) -> Pairs:
             findings.add(line, "amplitude", f"*AMPLITUDE: {line.text[:40]}: expected pairs of time and value")
             continue
         for time, value in zip(fields[::2], fields[1::2], strict=True):
-            if pairs and float(time) <= pairs[-1][0]:
+            if pairs and number(time) <= pairs[-1][0]:
                 findings.add(line, "amplitude", f"*AMPLITUDE: time {time} does not come after {pairs[-1][0]:g}")
                 return pairs
-            pairs.append((float(time), float(value)))
+            pairs.append((number(time), number(value)))
     if len(pairs) < 2:
         findings.add(block, "amplitude", f"*AMPLITUDE: {len(pairs)} points, expected at least 2")
     return pairs
@@ -80,7 +80,7 @@ def _check_boundary(
         if size and not is_number(size):
             findings.add(line, "not-a-number", f"*BOUNDARY: {size} is not a number")
             continue
-        moves = bool(size) and float(size) != 0.0
+        moves = bool(size) and number(size) != 0.0
         if not (moves and names.explicit and kind == "DISPLACEMENT"):
             continue
         name = (block.parameters.get("AMPLITUDE") or "").upper()
@@ -234,7 +234,7 @@ def _check_steps(deck: Deck, findings: Findings) -> None:
             found = block
             if "EXPLICIT" in block.parameters:
                 period = block.data[0].fields[1] if block.data and len(block.data[0].fields) > 1 else ""
-                if not is_number(period) or float(period) <= 0.0:
+                if not is_number(period) or number(period) <= 0.0:
                     at = block.data[0] if block.data else block
                     findings.add(at, "step-time", f"*DYNAMIC, EXPLICIT: time period {period or '(none)'}: expected > 0")
         elif block.keyword == "END STEP" and step is not None and found is None:

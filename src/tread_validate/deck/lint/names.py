@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...inp import Block, DataLine, Deck
 from .findings import Findings
-from .syntax import is_number
+from .syntax import is_number, number
 from .table import ELEMENT_NODES
 
 LONGEST_LABEL = 9  # digits of a node or element number
@@ -97,8 +97,8 @@ def _nodes(deck: Deck, names: Names, findings: Findings) -> None:
         first = len(ids)
         for line in block.data:
             fields = line.fields
-            if not fields or not fields[0].isdigit() or not all(is_number(text) for text in fields[1:4] if text):
-                if not fields or not fields[0].isdigit():
+            if not fields or not is_label(fields[0]) or not all(is_number(text) for text in fields[1:4] if text):
+                if not fields or not is_label(fields[0]):
                     findings.add(line, "bad-node", f"*NODE: {line.text[:40]}: expected id, x, y, z")
                 continue
             node = int(fields[0])
@@ -106,7 +106,7 @@ def _nodes(deck: Deck, names: Names, findings: Findings) -> None:
                 findings.add(line, "duplicate-node", f"node {node} is already defined in line {seen[node]}")
             seen[node] = line.number
             ids.append(node)
-            xyz = [float(text) if text else 0.0 for text in fields[1:4]]
+            xyz = [number(text) if text else 0.0 for text in fields[1:4]]
             places.append((*xyz, *[0.0] * (3 - len(xyz))))  # type: ignore[arg-type]
         _into(names.nsets, block.parameters.get("NSET"), ids[first:])
     names.node_ids = np.array(ids, dtype=np.int64)
@@ -127,7 +127,7 @@ def _elements(deck: Deck, names: Names, findings: Findings) -> None:
         lines: list[DataLine] = []
         pending: list[int] = []
         for line in block.data:
-            if not all(text.isdigit() and len(text) <= LONGEST_LABEL for text in line.fields):
+            if not all(is_label(text) for text in line.fields):
                 findings.add(
                     line, "bad-element", f"*ELEMENT: {line.text[:40]}: expected whole numbers of up to 9 digits"
                 )
@@ -156,7 +156,7 @@ def _elements(deck: Deck, names: Names, findings: Findings) -> None:
 
 
 def _first_ids(lines: Iterable[DataLine]) -> list[int]:
-    return [int(line.fields[0]) for line in lines if line.fields and line.fields[0].isdigit()]
+    return [int(text) for text in (line.fields[0] for line in lines if line.fields) if is_label(text)]
 
 
 def _sets(deck: Deck, names: Names, findings: Findings) -> None:
@@ -199,10 +199,15 @@ def _generated(line: DataLine, known: frozenset[int], what: str, findings: Findi
     if step < 1 or last < first:
         findings.add(line, "field-count", f"GENERATE: {line.text[:40]}: expected first <= last and step >= 1")
         return []
-    ids = [number for number in range(first, last + 1, step) if number in known]
+    ids = sorted(label for label in known if first <= label <= last and (label - first) % step == 0)
     if not ids:
         findings.add(line, f"undefined-{what}", f"GENERATE: no {what} from {first} to {last}")
     return ids
+
+
+def is_label(text: str) -> bool:
+    """Whether a field is a node or element number."""
+    return text.isdigit() and len(text) <= LONGEST_LABEL
 
 
 def _into(table: dict[str, IntArray], name: str | None, ids: list[int]) -> None:
@@ -211,6 +216,6 @@ def _into(table: dict[str, IntArray], name: str | None, ids: list[int]) -> None:
 
 
 def _members(text: str, table: dict[str, IntArray], known: frozenset[int]) -> IntArray | None:
-    if text.isdigit():
+    if is_label(text):
         return np.array([int(text)], dtype=np.int64) if int(text) in known else None
     return table.get(text.strip('"').upper())

@@ -96,10 +96,15 @@ def _check_numbers(block: Block, line: DataLine, findings: Findings) -> None:
 def is_number(text: str) -> bool:
     """Whether a field is a finite number in the language's form (Fortran exponents allowed)."""
     try:
-        value = float(text.upper().replace("D", "E"))
+        value = number(text)
     except ValueError:
         return False
     return abs(value) < float("inf")
+
+
+def number(text: str) -> float:
+    """Return a field as a number; Fortran's exponent letter D is one of the language's forms."""
+    return float(text.upper().replace("D", "E"))
 
 
 def _has_parent(blocks: Sequence[Block], position: int, parents: tuple[str, ...]) -> bool:
