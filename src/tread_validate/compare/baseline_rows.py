@@ -6,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import InputError
@@ -38,6 +38,10 @@ ISO_TOLERANCE = (0.0, 2e-3)
 COEFFICIENT_TOLERANCE = (1e-4, 1e-6)
 CLAIM_TOLERANCE = (1e-4, 1e-6)
 UNCERTAIN_CLAIMS = {"rig_peak_at_centre": (0.0, 2e-3), "belt_slip_at_exit": (0.0, 2e-3)}
+
+# the coupled springs stop iterating within a tolerance, and another processor ends elsewhere in it: measured, up to 1.8
+# times the tolerances above between an AVX-512 machine and one without AVX; the other variants did not move a digit
+ITERATIVE, ITERATIVE_FACTOR = "spring:coupled", 5.0
 
 Key = tuple[str, str, str, str, str, str]
 
@@ -84,12 +88,17 @@ def rows_of_tables(folder: Path | str) -> tuple[BaselineRow, ...]:
     """
     place = Path(folder)
     rows = [*_cases(place), *_scalars(place), *_errors(place), *_coefficients(place), *_claims(place)]
+    rows = [_widened(row) if row.source.startswith(ITERATIVE) else row for row in rows]
     seen: dict[Key, BaselineRow] = {}
     for row in rows:
         if row.key in seen:
             raise InputError(place, f"{' '.join(part for part in row.key if part)} twice", "each row once")
         seen[row.key] = row
     return tuple(rows)
+
+
+def _widened(row: BaselineRow) -> BaselineRow:
+    return replace(row, tolerance=float(f"{ITERATIVE_FACTOR * row.tolerance:.4g}"))
 
 
 def _cases(place: Path) -> Iterator[BaselineRow]:

@@ -179,6 +179,18 @@ def test_check_ends_with_one_where_a_row_moved(workspace: Any, copy: Any, capsys
     assert tread_validate([*arguments, "--report-only"]) == 0
 
 
+def test_a_model_that_iterates_has_wider_tolerances(workspace: Any, copy: Any) -> None:
+    """The same table under the name of the coupled springs: five times the tolerance, to the four digits printed."""
+    for table in copy.tables.glob("*.csv"):
+        text = table.read_text(encoding="utf-8")
+        table.write_text(text.replace("spring:paper", "spring:coupled"), encoding="utf-8")
+    narrow = [row for row in rows_of_tables(workspace.tables) if row.source == "spring:paper"]
+    wide = [row for row in rows_of_tables(copy.tables) if row.source == "spring:coupled"]
+    assert len(narrow) == len(wide) > 0
+    for a, b in zip(narrow, wide, strict=True):
+        assert b.tolerance == pytest.approx(5.0 * a.tolerance, rel=1e-3)
+
+
 def test_tables_of_another_study_are_refused(workspace: Any, copy: Any, capsys: pytest.CaptureFixture[str]) -> None:
     """A baseline says nothing about another study: wrong input, not a failed check."""
     baseline = copy.folder / "baseline"
