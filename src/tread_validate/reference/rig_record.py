@@ -24,6 +24,7 @@ FEWEST_SAMPLES = 200
 CLIPPED_RUN = 5  # samples in a row at the largest reading ...
 CLIPPED_TOTAL = 10  # ... and so many in the record: a limit was reached
 LARGEST_FORCE = 1e5  # N
+LARGEST_TIME = 1e9  # s
 
 
 @dataclass(frozen=True)
@@ -150,6 +151,9 @@ def _record(
     time = values[TIME]
     if time.size < FEWEST_SAMPLES:
         raise InputError(source, f"{time.size} samples", f"at least {FEWEST_SAMPLES}")
+    if np.abs(time).max() > LARGEST_TIME:
+        row = int(np.argmax(np.abs(time)))
+        raise InputError(f"{source}:{line[row]}: {TIME}", f"{time[row]:.6g} s", f"at most {LARGEST_TIME:g} s")
     steps = np.diff(time)
     step = float(np.median(steps))
     wrong = np.abs(steps - step) > UNEVEN * step if step > 0 else np.ones(steps.size, dtype=bool)

@@ -36,7 +36,7 @@ SchedulerType=sched/backfill
 SchedulerParameters=sched_interval=5,bf_interval=5
 AccountingStorageType=accounting_storage/none
 JobAcctGatherType=jobacct_gather/none
-MinJobAge=600
+MinJobAge=7200
 ReturnToService=2
 KillWait=2
 SlurmctldTimeout=120
