@@ -52,6 +52,7 @@ def browser(
                 "color": look.color,
                 "dash": look.dash,
                 "reference": key.startswith("fe:"),
+                "slips": not key.startswith("rig:"),  # slip is not measured on the rig
             }
             for key, look in looks.items()
         ],

@@ -46,7 +46,7 @@ TV.browser = (function () {
       const common = { mode: "lines", type: "scatter", x: history.time, line, name: source.label, legendgroup: source.key };
       traces.push(Object.assign({}, common, { y: history.normal, hovertemplate: "%{y:.1f} N" }));
       traces.push(Object.assign({}, common, { y: history.tangential, yaxis: "y2", showlegend: false, hovertemplate: "%{y:.2f} N" }));
-      traces.push(Object.assign({}, common, { y: history.slipping.map((v) => 100 * v), yaxis: "y3", showlegend: false, hovertemplate: "%{y:.0f} %" }));
+      if (source.slips) { traces.push(Object.assign({}, common, { y: history.slipping.map((v) => 100 * v), yaxis: "y3", showlegend: false, hovertemplate: "%{y:.0f} %" })); }
     }
     const layout = TV.layout({
       grid: { rows: 3, columns: 1 }, hovermode: "x unified", dragmode: TV.coarse ? false : "zoom",
