@@ -21,7 +21,7 @@ from .piecewise import integral, transform
 from .pitch import PitchSequence, Placement
 
 LONGEST_STEP = 50e-6  # s, of the written time signal
-OPEN_END = 0.01  # a history that begins or ends above this share of its peak has been cut off
+OPEN_END = 0.05  # of the peak: above it a history has been cut off; corners of a mesh touch a little before t = 0
 FORCES = ("normal_force", "tangential_force")
 
 

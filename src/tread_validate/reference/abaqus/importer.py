@@ -22,7 +22,8 @@ from .tables import Table, read_table
 FORCE_UNITS = {"N": 1.0, "kN": 1e3, "mN": 1e-3}
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
 DURATION_TOLERANCE = 0.01  # of the pass
-OPEN_END = 0.01  # of the peak
+OPEN_END = 0.05  # of the peak, at both ends: corners of a mesh touch a little before the path's first touch
+LARGEST_TENSION = 0.01  # of the peak
 SAME_TIME = 1e-9  # s
 STRAIN_RANGE = (1e-4, 0.5)  # peak force over plan area over modulus: what a pressed block can have
 REACTION_TOLERANCE = 0.05
@@ -286,8 +287,10 @@ def _plausible(
             where, f"an impulse of {impulse:.4g} N s", "compression as positive (do the forces act on the road?)"
         )
     lowest = float(normal.min())
-    if lowest < -OPEN_END * peak:
-        raise InputError(where, f"{lowest:.4g} N of tension", f"none beyond {OPEN_END:.0%} of the peak, {peak:.4g} N")
+    if lowest < -LARGEST_TENSION * peak:
+        raise InputError(
+            where, f"{lowest:.4g} N of tension", f"none beyond {LARGEST_TENSION:.0%} of the peak, {peak:.4g} N"
+        )
     strain = peak / (facts.plan_area * facts.modulus)
     if not STRAIN_RANGE[0] <= strain <= STRAIN_RANGE[1]:
         raise InputError(
