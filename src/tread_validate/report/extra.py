@@ -52,9 +52,7 @@ def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: 
         source = folder / "figures" / f"{name}.svg"
         if source.is_file():
             drawn.mkdir(parents=True, exist_ok=True)
-            for path in (source, source.with_suffix(".png")):
-                if path.is_file():
-                    shutil.copyfile(path, drawn / f"ladder-{path.name}")
+            shutil.copyfile(source, drawn / f"ladder-{name}.svg")
             table = tables.get(name)
             own = marks.of_column(table["assumed"]) if table is not None and "assumed" in table else ()
             figures.append(

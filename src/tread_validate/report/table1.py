@@ -10,8 +10,7 @@ from .marks import Marks
 from .results import value_cell
 from .tables import Tables, number, records
 
-COEFFICIENTS = {"a_v": "a_v, speed", "a_theta": "a_θ, temperature"}
-UNITS = {"s/m": "%/(m/s)", "1/degC": "%/°C"}
+COEFFICIENTS = {"a_v": "a_v (speed), %/(m/s)", "a_theta": "a_θ (temperature), %/°C"}
 
 
 def regression_sources(tables: Tables) -> list[str]:
@@ -26,7 +25,7 @@ def table1(tables: Tables, marks: Marks) -> Table:
     """Return the paper's Table 1 with a column for every source."""
     frame = tables.regression[tables.regression["set"] == "mean"]
     sources = regression_sources(tables)
-    columns = [Column("Block"), Column("Coefficient", "per cent of the force")]
+    columns = [Column("Block"), Column("Coefficient", "of the force")]
     for name in sources:
         own = frame[frame["source"] == name]
         columns.append(Column(wording.source(name), numeric=True, marks=marks.of_column(own["assumed"])))
@@ -52,7 +51,7 @@ def _coefficient_cell(found: list[dict[str, Any]]) -> Cell:
     if not found:
         return Cell("–", tone="mute")
     record = found[0]
-    value, unit = number(record["value"]), UNITS.get(str(record["unit"]), str(record["unit"]))
+    value = number(record["value"])
     if value is None:
         return Cell("–", tone="mute", note=str(record["note"] or "") or wording.status(str(record["status"])))
     low, high = number(record["low"]), number(record["high"])
@@ -66,7 +65,7 @@ def _coefficient_cell(found: list[dict[str, Any]]) -> Cell:
     if ci[0] is not None and ci[1] is not None:
         level = 100.0 * (number(record["ci_level"]) or 0.95)
         notes.append(f"{level:.0f} % CI {_percent(ci[0])} to {_percent(ci[1])}")
-    return Cell(f"{_percent(value)} {unit}", sort=value, note="; ".join(notes))
+    return Cell(_percent(value), sort=value, note="; ".join(notes))
 
 
 def _percent(value: float) -> str:

@@ -89,10 +89,10 @@ def test_table_1_has_a_column_for_every_source(tables: Tables, marks: Marks) -> 
     assert titles == ["Rig (published)", "FE (published)", "FE (embedded)", "Spring (paper)"]
     assert [bool(column.marks) for column in table.columns[2:]] == [False, False, True, True]
     assert [cell.text for cell in table.rows[0].cells[2:]] == [
-        "3.60 %/(m/s)",
-        "3.30 %/(m/s)",
-        "3.00 %/(m/s)",
-        "2.70 %/(m/s)",
+        "3.60",
+        "3.30",
+        "3.00",
+        "2.70",
     ]
     assert table.rows[0].cells[4].note == "sd 0.60; 95 % CI 1.80 to 4.20"
 

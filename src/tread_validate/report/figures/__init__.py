@@ -1,4 +1,4 @@
-"""The report's drawn figures, as SVG and PNG files."""
+"""The report's drawn figures, as SVG files."""
 
 from .studio import Studio
 from .style import Drawn, figure_items

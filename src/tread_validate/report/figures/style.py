@@ -40,6 +40,7 @@ RC: dict[Any, Any] = {
     "path.simplify": True,
     "path.simplify_threshold": 0.3,
 }
+MARGINS = {"left": 0.145, "right": 0.985, "bottom": 0.15, "top": 0.915}
 DPI = 150
 
 
@@ -60,10 +61,15 @@ def styled() -> Iterator[None]:
         yield
 
 
-def panel(width: float = WIDTH, height: float = HEIGHT) -> tuple[Canvas, Axes]:
-    """Return a canvas with one pair of axes."""
-    canvas = Canvas(figsize=(width, height), layout="constrained")
+def panel(size: tuple[float, float] | None) -> tuple[Canvas, Axes]:
+    """Return a canvas with one pair of axes: of the usual size with fixed margins, of any other size laid out to fit.
+
+    Finding margins that fit costs as much as the drawing itself.
+    """
+    canvas = Canvas(figsize=size or (WIDTH, HEIGHT), layout="constrained" if size else None)
     FigureCanvasAgg(canvas)
+    if size is None:
+        canvas.subplots_adjust(**MARGINS)
     return canvas, canvas.add_subplot()
 
 
@@ -74,25 +80,21 @@ def draw(
     caption: str,
     paint: Callable[[Axes], None],
     marks: tuple[Mark, ...] = (),
-    size: tuple[float, float] = (WIDTH, HEIGHT),
+    size: tuple[float, float] | None = None,
     wide: bool = False,
 ) -> Drawn:
-    """Paint one panel and save it as SVG and PNG; a note of its marks is printed in the figure itself."""
+    """Paint one panel and save it as SVG; a note of its marks is printed in the figure itself."""
     with styled():
-        canvas, axes = panel(*size)
+        canvas, axes = panel(size)
         paint(axes)
         if marks:
             canvas.text(0.995, 0.995, in_words(marks), ha="right", va="top", fontsize=6.0, color="#6b5200")
             engine = canvas.get_layout_engine()
-            assert isinstance(engine, ConstrainedLayoutEngine)
-            engine.set(rect=(0, 0, 1, 0.965))
-        canvas.draw_without_rendering()
-        canvas.set_layout_engine("none")  # laid out once: doing it again for each file would cost half the time
+            if isinstance(engine, ConstrainedLayoutEngine):
+                engine.set(rect=(0, 0, 1, 0.965))
         svg = folder / f"{key}.svg"
         with atomic_path(svg) as temporary:
             canvas.savefig(temporary, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
-        with atomic_path(folder / f"{key}.png") as temporary:
-            canvas.savefig(temporary, format="png", dpi=DPI, metadata={"Software": None})
     return Drawn(Figure(key, title, caption, svg, marks, wide))
 
 
