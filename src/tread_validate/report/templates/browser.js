@@ -51,9 +51,9 @@ TV.browser = (function () {
     const layout = TV.layout({
       grid: { rows: 3, columns: 1 }, hovermode: "x unified", dragmode: TV.coarse ? false : "zoom",
       xaxis: TV.axis("time from first touch, ms", { anchor: "y3", domain: [0, 1] }),
-      yaxis: TV.axis("normal force, N", { domain: [0.6, 1] }),
-      yaxis2: TV.axis("tangential force, N", { domain: [0.24, 0.56] }),
-      yaxis3: TV.axis("slipping, %", { domain: [0, 0.18], range: [-4, 104], dtick: 50 }),
+      yaxis: TV.axis("normal, N", { domain: [0.6, 1] }),
+      yaxis2: TV.axis("tangential, N", { domain: [0.24, 0.56] }),
+      yaxis3: TV.axis("slip, %", { domain: [0, 0.18], range: [-4, 104], dtick: 50 }),
       height: 560,
     });
     if (traces.length === 0) {
