@@ -7,7 +7,7 @@ export PATH := $(CURDIR)/.venv/bin:$(PATH)
 VENV := .venv
 BIN := $(VENV)/bin
 SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --profile workflow/profiles/default --cores $(CORES) --config study=$(STUDY)
-SYSTEM_PACKAGES := gfortran calculix-ccx chromium chromium-driver poppler-utils
+SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
 .PHONY: help report test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean
 
