@@ -6,7 +6,7 @@ STUDY ?= config/study.yaml
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 VENV := .venv
 BIN := $(VENV)/bin
-SNAKEMAKE := $(BIN)/snakemake --config study=$(STUDY) --profile workflow/profiles/default --cores $(CORES)
+SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
 .PHONY: help report test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean
