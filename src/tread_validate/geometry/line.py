@@ -71,7 +71,7 @@ class ArcFlatArc:
 
     @property
     def table(self) -> Array:
-        """A dummy."""
+        """Not read for this kind of line; the compiled code takes a table for every kind."""
         return EMPTY_TABLE
 
     @property
@@ -119,7 +119,7 @@ class WheelLine:
 
     @property
     def table(self) -> Array:
-        """A dummy."""
+        """Not read for this kind of line; the compiled code takes a table for every kind."""
         return EMPTY_TABLE
 
     @property

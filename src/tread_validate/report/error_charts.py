@@ -11,21 +11,9 @@ from .cases import CaseView, Facet, facets
 from .content import Widget
 from .marks import Marks
 from .palette import Look
+from .results import HEADLINE
 from .tables import Tables, number, records
 
-HEAT = (
-    ("peak_normal_force", "scalar"),
-    ("peak_positive_tangential_force", "scalar"),
-    ("peak_negative_tangential_force", "scalar"),
-    ("normal_impulse", "scalar"),
-    ("contact_duration", "scalar"),
-    ("normal_force", "relative_rms"),
-    ("tangential_force", "relative_rms"),
-    ("normal_force", "sprague_geers_c"),
-    ("tangential_force", "sprague_geers_c"),
-    ("normal_force", "iso18571_r"),
-    ("tangential_force", "iso18571_r"),
-)
 SCATTER = (
     "peak_normal_force",
     "peak_positive_tangential_force",
@@ -46,7 +34,7 @@ def heatmap(tables: Tables, views: tuple[CaseView, ...], marks: Marks) -> tuple[
     data: list[dict[str, Any]] = []
     known = {(row["predicted_source"], row["reference_source"]) for row in records(frame) if _shown(row) is not None}
     pairs = [pair for pair in pairs if pair in known] or pairs[:1]
-    for quantity, metric in HEAT:
+    for quantity, metric in HEADLINE:
         own = records(frame[(frame["quantity"] == quantity) & (frame["metric"] == metric)])
         found = [(row, value) for row in own if (value := _shown(row)) is not None]
         limits: dict[str, float] = {}
