@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tread_validate.compare.convergence import convergence, history_errors, richardson
+from tread_validate.compare.scores.convergence import convergence, history_errors, richardson
 from tread_validate.errors import InputError
 from tread_validate.history import History
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from tread_validate.compare.differences import differences
-from tread_validate.compare.regression import Coefficient, Peak, fieller, fit_line, mean_interval, regress
+from tread_validate.compare.regression.differences import differences
+from tread_validate.compare.regression.line import Coefficient, Peak, fieller, fit_line, mean_interval, regress
 from tread_validate.errors import InputError
 
 # NIST Statistical Reference Datasets, Norris: y, x, 36 observations

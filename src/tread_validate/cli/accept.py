@@ -24,7 +24,7 @@ def command(
 
     Example: tread-validate accept --reason "default step halved: peaks move by 0.02 %"
     """
-    from ..compare.accept import accept
+    from ..compare.baseline.accept import accept
 
     made = accept(tables, baseline, reason, who=who, allow_dirty=allow_dirty, allow_stale=allow_stale)
     facts = made.acceptance

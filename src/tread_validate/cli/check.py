@@ -22,10 +22,10 @@ def command(
 
     Example: tread-validate check results/tables --junit check.xml --markdown check.md
     """
-    from ..compare.baseline import load_baseline, same_study
-    from ..compare.baseline_rows import rows_of_tables
-    from ..compare.delta import deltas
-    from ..compare.delta_output import delta_csv, delta_junit, delta_lines, delta_markdown, summary
+    from ..compare.baseline.delta import deltas
+    from ..compare.baseline.output import delta_csv, delta_junit, delta_lines, delta_markdown, summary
+    from ..compare.baseline.rows import rows_of_tables
+    from ..compare.baseline.store import load_baseline, same_study
     from ..errors import CheckFailedError
     from ..files import write_text
 

@@ -27,7 +27,7 @@ def command(
     from json import dumps
 
     from ..compare import METRIC_COLUMNS, compare
-    from ..compare.csv_table import table_text
+    from ..compare.tables.text import table_text
     from ..files import write_text
     from ..history import History
 

@@ -21,9 +21,9 @@ def command(
     from dataclasses import asdict
 
     from ..compare import METRIC_COLUMNS
-    from ..compare.csv_table import table_text
     from ..compare.engines import engine_rows, engine_runs
     from ..compare.runs import engines
+    from ..compare.tables.text import table_text
     from ..files import write_text
     from ..spring import resolve_creep
     from ..study import load_study

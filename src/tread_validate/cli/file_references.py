@@ -23,7 +23,7 @@ def command(
     import pandas as pd
     import yaml
 
-    from ..compare.energy import energy_shares
+    from ..compare.scores.energy import energy_shares
     from ..errors import InputError
     from ..files import read_text, write_bytes, write_text
     from ..provenance import sha256_file

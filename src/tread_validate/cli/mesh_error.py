@@ -23,7 +23,7 @@ def command(
     """
     import yaml
 
-    from ..compare.convergence import convergence, history_errors
+    from ..compare.scores.convergence import convergence, history_errors
     from ..errors import InputError
     from ..files import write_text
     from ..history import History

@@ -30,9 +30,9 @@ def command(
     from dataclasses import asdict, fields
     from json import dumps
 
-    from ..compare.csv_table import table_text
-    from ..compare.peaks_file import read_peaks
-    from ..compare.regression import EXCLUDED_INTERFERENCES, Coefficient, regress
+    from ..compare.regression.line import EXCLUDED_INTERFERENCES, Coefficient, regress
+    from ..compare.regression.peaks_file import read_peaks
+    from ..compare.tables.text import table_text
     from ..files import write_text
 
     left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)

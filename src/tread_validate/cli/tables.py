@@ -27,7 +27,7 @@ def command(
     Example: tread-validate tables config/study.yaml --spring results/spring --decks fe_inputs -o results/tables
     """
     from ..compare import build_tables
-    from ..compare.regression import EXCLUDED_INTERFERENCES
+    from ..compare.regression.line import EXCLUDED_INTERFERENCES
 
     left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)
     found = build_tables(study, spring, references, output, decks, left_out)

@@ -7,9 +7,9 @@ from itertools import combinations
 from pathlib import Path
 
 from ..study import Case
-from .comparison import compare
-from .rows import MetricRow
 from .runs import Runs, fe_runs
+from .scores.comparison import compare
+from .scores.rows import MetricRow
 
 
 def engine_runs(cases: Sequence[Case], reference_dir: Path, decks_dir: Path, engines: Sequence[str]) -> Runs:

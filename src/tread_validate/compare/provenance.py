@@ -11,8 +11,8 @@ from typing import Any
 
 from ..provenance import commit, sha256_file, version
 from ..study import Case, LoadedStudy
-from .coefficients import SPEEDS_ASSUMED, ZERO_ASSUMED
-from .regression import REFERENCE_TEMPERATURE
+from .regression.coefficients import SPEEDS_ASSUMED, ZERO_ASSUMED
+from .regression.line import REFERENCE_TEMPERATURE
 from .runs import Runs
 
 PACKAGES = ("numpy", "scipy", "numba", "pandas", "pydantic", "statsmodels", "objective-rating-metrics", "frictionless")

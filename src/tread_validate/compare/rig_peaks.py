@@ -10,11 +10,11 @@ from ..errors import InputError, one_line
 from ..history import History
 from ..reference.rig import load_rig
 from ..study import Case
-from .comparison import compare, scalar_row
 from .quantities import SCALAR
-from .rows import CANNOT_TELL, MetricRow
 from .runs import Runs, SourceRun
-from .scalars import scalars
+from .scores.comparison import compare, scalar_row
+from .scores.rows import CANNOT_TELL, MetricRow
+from .scores.scalars import scalars
 
 MEASURED = "rig:measured"
 NOTHING = "measured rig peaks are not published as numbers and none has been imported"

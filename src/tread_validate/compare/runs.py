@@ -12,7 +12,7 @@ from ..history import History
 from ..provenance import deck_digest
 from ..reference import load_fe
 from ..study import Case
-from .scalars import Scalars, scalars
+from .scores.scalars import Scalars, scalars
 
 
 @dataclass(frozen=True)

@@ -10,17 +10,17 @@ from pathlib import Path
 from ..files import read_text
 from ..reference import load_published
 from ..study import Case, LoadedStudy
-from .claim import Claim, Evidence
-from .claims import published_claims
-from .coefficients import computed_regression, published_coefficients
-from .comparison import compare, empty_rows
-from .differences import Difference, differences
-from .ensemble import Ensemble, summarise
-from .regression import EXCLUDED_INTERFERENCES, Coefficient, Residual
+from .claims.claim import Claim, Evidence
+from .claims.published import published_claims
+from .regression.coefficients import computed_regression, published_coefficients
+from .regression.differences import Difference, differences
+from .regression.line import EXCLUDED_INTERFERENCES, Coefficient, Residual
 from .rig_peaks import MEASURED, measured_means, rig_peaks, rig_rows, rig_runs
-from .rows import MetricRow
 from .runs import Runs, engines, fe_runs, spring_runs
-from .sensitivity import Sensitivity, sensitivity
+from .scores.comparison import compare, empty_rows
+from .scores.ensemble import Ensemble, summarise
+from .scores.rows import MetricRow
+from .scores.sensitivity import Sensitivity, sensitivity
 
 
 @dataclass(frozen=True)

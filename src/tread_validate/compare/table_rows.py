@@ -6,13 +6,13 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from ..study import Case
-from .claim import CLAIM_COLUMNS, Claim
-from .differences import Difference
-from .ensemble import Ensemble
+from .claims.claim import CLAIM_COLUMNS, Claim
 from .quantities import SCALARS
-from .regression import Coefficient, Residual
+from .regression.differences import Difference
+from .regression.line import Coefficient, Residual
 from .runs import SourceRun
-from .sensitivity import Sensitivity
+from .scores.ensemble import Ensemble
+from .scores.sensitivity import Sensitivity
 
 COLUMNS: dict[str, tuple[str, ...]] = {
     "cases": (

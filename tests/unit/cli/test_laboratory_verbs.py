@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from tread_validate.cli.app import run
-from tread_validate.compare.peaks_file import read_peaks
+from tread_validate.compare.regression.peaks_file import read_peaks
 from tread_validate.friction import read_friction
 from tread_validate.geometry.trace_file import read_belt
 from tread_validate.material import read_material

@@ -12,11 +12,11 @@ import pytest
 import yaml
 
 from tread_validate.cli.app import run as tread_validate
-from tread_validate.compare.accept import accept
-from tread_validate.compare.baseline import Acceptance, Baseline, load_baseline, save_baseline
-from tread_validate.compare.baseline_rows import BaselineRow, rows_of_tables
-from tread_validate.compare.delta import deltas
-from tread_validate.compare.delta_output import delta_csv, delta_junit, delta_markdown, summary
+from tread_validate.compare.baseline.accept import accept
+from tread_validate.compare.baseline.delta import deltas
+from tread_validate.compare.baseline.output import delta_csv, delta_junit, delta_markdown, summary
+from tread_validate.compare.baseline.rows import BaselineRow, rows_of_tables
+from tread_validate.compare.baseline.store import Acceptance, Baseline, load_baseline, save_baseline
 from tread_validate.errors import InputError
 
 ROW = BaselineRow(
@@ -153,7 +153,7 @@ def test_accept_needs_a_reason_a_clean_tree_and_current_rows(
     assert made.acceptance.when.endswith("Z")
     assert load_baseline(repository / "baseline").rows == made.rows
     git("commit", "-q", "-a", "-m", "change")
-    monkeypatch.setattr("tread_validate.compare.accept.commit", lambda: "feedfeedfeed")
+    monkeypatch.setattr("tread_validate.compare.baseline.accept.commit", lambda: "feedfeedfeed")
     with pytest.raises(InputError, match="expected feedfeedfeed"):
         accept(workspace.tables, repository / "baseline", "a good reason")
 

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tread_validate.compare.claim import Evidence
-from tread_validate.compare.claims_belt import RUNS as BELT
-from tread_validate.compare.claims_belt import SPRING
-from tread_validate.compare.claims_rig import RUNS as RIG
-from tread_validate.compare.claims_rig import net_impulse_ratio
+from tread_validate.compare.claims.belt import RUNS as BELT
+from tread_validate.compare.claims.belt import SPRING
+from tread_validate.compare.claims.claim import Evidence
+from tread_validate.compare.claims.rig import RUNS as RIG
+from tread_validate.compare.claims.rig import net_impulse_ratio
 from tread_validate.compare.runs import SourceRun
-from tread_validate.compare.scalars import scalars
+from tread_validate.compare.scores.scalars import scalars
 from tread_validate.history import History
 from tread_validate.reference import load_published
 from tread_validate.spring import resolve_creep

@@ -7,11 +7,12 @@ from typing import Any
 
 import pytest
 
-from tread_validate.compare.claim import Computed, Evidence, interval, judge
-from tread_validate.compare.claims_rig import TABLE_1
-from tread_validate.compare.ensemble import summarise
-from tread_validate.compare.regression import Coefficient
-from tread_validate.compare.rows import MetricRow
+from tread_validate.compare.claims.claim import Computed, Evidence, judge
+from tread_validate.compare.claims.rig import TABLE_1
+from tread_validate.compare.regression.coefficients import interval
+from tread_validate.compare.regression.line import Coefficient
+from tread_validate.compare.scores.ensemble import summarise
+from tread_validate.compare.scores.rows import MetricRow
 from tread_validate.reference import PublishedValue
 
 VALUE = PublishedValue(

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from tread_validate.cli.app import run as tread_validate
 from tread_validate.compare import compare, empty_rows, verdict
-from tread_validate.compare.align import align, window
-from tread_validate.compare.comparison import scalar_row
 from tread_validate.compare.quantities import SCALAR
+from tread_validate.compare.scores.align import align, window
+from tread_validate.compare.scores.comparison import scalar_row
 from tread_validate.errors import InputError
 from tread_validate.history import History
 

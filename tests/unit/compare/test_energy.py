@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
-from tread_validate.compare.energy import energy_shares
+from tread_validate.compare.scores.energy import energy_shares
 from tread_validate.errors import InputError
 
 

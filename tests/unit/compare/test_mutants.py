@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from tread_validate.compare.baseline_rows import rows_of_tables
-from tread_validate.compare.delta import deltas
+from tread_validate.compare.baseline.delta import deltas
+from tread_validate.compare.baseline.rows import rows_of_tables
 
 
 def _replaced(*pairs: tuple[str, str]) -> Callable[[str], str]:

@@ -15,7 +15,7 @@ import pytest
 import yaml
 
 from tread_validate.compare.quantities import HISTORIES, HISTORY_METRICS, SCALARS
-from tread_validate.compare.rows import METRIC_COLUMNS
+from tread_validate.compare.scores.rows import METRIC_COLUMNS
 from tread_validate.history import History
 
 Workspace = Any  # of conftest.py

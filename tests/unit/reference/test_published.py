@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tread_validate.compare import claims_belt, claims_rig
-from tread_validate.compare.claims_inputs import INPUTS
-from tread_validate.compare.claims_study import STUDY
-from tread_validate.compare.coefficients import published_coefficients
+from tread_validate.compare.claims import belt as claims_belt
+from tread_validate.compare.claims import rig as claims_rig
+from tread_validate.compare.claims.inputs import INPUTS
+from tread_validate.compare.claims.study import STUDY
+from tread_validate.compare.regression.coefficients import published_coefficients
 from tread_validate.errors import InputError
 from tread_validate.reference import load_published, validate_package
 

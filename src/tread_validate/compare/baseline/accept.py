@@ -1,0 +1,117 @@
+"""Making a set of tables the baseline: a separate, explicit act with a reason."""
+
+from __future__ import annotations
+
+import datetime
+import getpass
+import json
+import os
+import subprocess
+from pathlib import Path
+
+from ...errors import InputError, one_line
+from ...files import read_text
+from ...provenance import commit, version
+from .delta import BROKEN
+from .rows import rows_of_tables
+from .store import Acceptance, Baseline, save_baseline
+
+SHORTEST_REASON = 8
+
+
+def accept(
+    tables: Path | str,
+    folder: Path | str,
+    reason: str,
+    *,
+    who: str | None = None,
+    when: str | None = None,
+    allow_dirty: bool = False,
+    allow_stale: bool = False,
+) -> Baseline:
+    """Write the rows of `tables` as the baseline in `folder` and return it.
+
+    Raises
+    ------
+    InputError
+        For a reason that says nothing; a working tree with uncommitted changes, or tables made by other code than
+        that of the commit, unless `allow_dirty`; rows that are stale or corrupt, unless `allow_stale` (`check` goes
+        on failing for them).
+    """
+    if len(one_line(reason).strip()) < SHORTEST_REASON:
+        raise InputError("--reason", repr(one_line(reason)), f"a reason of {SHORTEST_REASON} characters or more")
+    facts = _provenance(Path(tables) / "provenance.json")
+    made_by = str(facts.get("commit", "unknown"))
+    if not allow_dirty:
+        changed = uncommitted(Path(folder))
+        if changed:
+            found = f"{len(changed)} uncommitted changes, first {changed[0]}"
+            raise InputError("working tree", found, "a clean tree, or --allow-dirty")
+        if made_by != commit():
+            raise InputError(
+                Path(tables) / "provenance.json", f"tables of commit {made_by}", f"{commit()}, or --allow-dirty"
+            )
+    rows = rows_of_tables(tables)
+    broken = [row for row in rows if row.status in BROKEN]
+    if broken and not allow_stale:
+        first = broken[0]
+        raise InputError(
+            f"{tables}: {first.source}, {first.case_id}",
+            f"{first.status} ({len(broken)} such rows)",
+            "current runs and references, or --allow-stale",
+        )
+    baseline = Baseline(
+        rows,
+        Acceptance(
+            reason=one_line(reason),
+            who=one_line(who or author()),
+            when=when or datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+            commit=made_by,
+            version=version(),
+            study=str(facts.get("study", "")),
+            study_digest=str(facts.get("study_digest", "")),
+        ),
+    )
+    save_baseline(folder, baseline)
+    return baseline
+
+
+def uncommitted(folder: Path) -> tuple[str, ...]:
+    """Return tracked files with uncommitted changes, those of the baseline itself apart.
+
+    Outside a git repository nothing can be told: `InputError`.
+    """
+    inside = Path(os.path.abspath(folder))
+    lines = _git("status", "--porcelain", "--untracked-files=no")
+    top = Path(_git("rev-parse", "--show-toplevel").strip())
+    names = [line[3:].split(" -> ")[-1].strip('"') for line in lines.splitlines() if line.strip()]
+    return tuple(name for name in names if inside not in (top / name).parents)
+
+
+def author() -> str:
+    """Return who accepts: git's user name, else the login name."""
+    try:
+        return _git("config", "user.name").strip() or getpass.getuser()
+    except InputError:
+        return getpass.getuser()
+
+
+def _git(*arguments: str) -> str:
+    environment = {**os.environ, "GIT_OPTIONAL_LOCKS": "0"}
+    try:
+        done = subprocess.run(
+            ["git", *arguments], check=True, capture_output=True, text=True, timeout=20, env=environment
+        )
+    except (OSError, subprocess.SubprocessError):
+        raise InputError("working tree", "no git repository here", "a git checkout, or --allow-dirty") from None
+    return done.stdout
+
+
+def _provenance(path: Path) -> dict[str, object]:
+    try:
+        facts = json.loads(read_text(path))
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path}:{error.lineno}", error.msg, "JSON") from None
+    if not isinstance(facts, dict):
+        raise InputError(path, type(facts).__name__, "a JSON object")
+    return facts

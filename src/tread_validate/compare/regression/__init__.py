@@ -1,0 +1,1 @@
+"""How peak force depends on speed and temperature: a_v and a_theta of every source."""

@@ -1,0 +1,67 @@
+"""Reading a table of peak forces."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from pathlib import Path
+
+from ...errors import InputError, one_line
+from ...files import read_text
+from .line import Peak
+
+NUMBERS = ("temperature_degC", "interference_mm", "speed_m_s")
+FORCE = "peak_normal_force_N"
+
+
+def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
+    """Return the peaks by source; an empty force is a missing run, which takes its set's coefficient with it.
+
+    Rows that say false in a column `rig` are passed over: a tyre belt case belongs to no set of speeds. Raises
+    `InputError` for a missing column, no rows, a value that is no finite number, a force that is not positive, and for
+    two rows of one run.
+    """
+    lines = [line for line in read_text(path).splitlines() if not line.startswith("#")]
+    reader = csv.DictReader(io.StringIO("\n".join(lines)))
+    header = reader.fieldnames or ()
+    needed = ("shape", *NUMBERS, FORCE)
+    missing = [name for name in needed if name not in header]
+    if missing:
+        raise InputError(f"{path}:1", one_line("columns " + ", ".join(header), 120), f"column {missing[0]}")
+    found: dict[str, list[Peak]] = {}
+    seen: set[tuple[object, ...]] = set()
+    for line, row in enumerate(reader, start=2):
+        where = f"{path}:{line}"
+        if None in row or None in row.values():
+            raise InputError(where, "a row of another length", f"{len(header)} cells")
+        if not _on_rig(row):
+            continue
+        temperature, interference, speed = (_number(row[name], f"{where}: {name}") for name in NUMBERS)
+        force = None if row[FORCE] == "" else _number(row[FORCE], f"{where}: {FORCE}")
+        if force is not None and force <= 0.0:
+            raise InputError(f"{where}: {FORCE}", row[FORCE], "a force > 0, or nothing where the run is missing")
+        source = row.get("source") or ""
+        key = (source, row["shape"], temperature, interference, speed)
+        if key in seen:
+            raise InputError(where, "the same run again", "one row for each shape, temperature, interference and speed")
+        seen.add(key)
+        case_id = row.get("case_id") or f"row {line}"
+        found.setdefault(source, []).append(Peak(case_id, row["shape"], temperature, interference, speed, force))
+    if not found:
+        raise InputError(path, "a header without rows of the rig", "at least one run")
+    return found
+
+
+def _on_rig(row: dict[str, str]) -> bool:
+    return row.get("rig", "true") != "false"
+
+
+def _number(text: str, where: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError(where, one_line(repr(text), 40), "a finite number")
+    return value

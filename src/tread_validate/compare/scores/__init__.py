@@ -1,0 +1,1 @@
+"""One run against another: scalars, histories on a common clock, scores, and statistics over many runs."""

@@ -1,0 +1,1 @@
+"""The tables of the results: what they hold, written and read in one place."""
