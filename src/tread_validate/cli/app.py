@@ -23,6 +23,7 @@ EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_ENGINE = 0, 1, 2, 3
 # verb -> module under cli/ that holds its `command`; in the order in which a newcomer meets them
 VERBS = {
     "cases": "cases",
+    "case": "case",
     "deck": "deck",
     "lint": "lint",
     "fe": "fe",

@@ -1,4 +1,4 @@
-"""`tread-validate schema`: the JSON schema of a study, material or friction file."""
+"""`tread-validate schema`: the JSON schema of a study, case, material or friction file."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import typer
 
 
 def command(
-    kind: Annotated[str, typer.Argument(help="study, material or friction")] = "study",
+    kind: Annotated[str, typer.Argument(help="study, case, material or friction")] = "study",
     output: Annotated[Path | None, typer.Option("-o", "--output", help="write to this file, not to the screen")] = None,
 ) -> None:
-    """Write the JSON schema of a study, material or friction file, generated from the models.
+    """Write the JSON schema of a study, case, material or friction file, generated from the models.
 
     Example: tread-validate schema -o workflow/schemas/study.schema.json
     """
@@ -25,6 +25,10 @@ def command(
         from ..study.schema import study_schema
 
         text = study_schema()
+    elif kind == "case":
+        from ..case_file import case_schema
+
+        text = case_schema()
     elif kind == "material":
         from ..material import material_schema
 
@@ -34,7 +38,7 @@ def command(
 
         text = json.dumps(friction_schema(), indent=2) + "\n"
     else:
-        raise InputError("schema", one_line(kind, 40), "study, material or friction")
+        raise InputError("schema", one_line(kind, 40), "study, case, material or friction")
     if output is None:
         typer.echo(text, nl=False)
     else:
