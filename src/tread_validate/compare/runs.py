@@ -102,8 +102,9 @@ def _spring_run(source: str, case: Case, path: Path) -> SourceRun:
         return SourceRun(source, case.case_id, "corrupt", one_line(f"{path.name}: {error.found}"))
     digest = history.digest()
     made_from = history.provenance.get("case_digest")
-    if made_from is not None and made_from != case.digest():
-        note = f"made from other inputs ({made_from[:12]}, today {case.digest()[:12]})"
+    today = case.digest("spring")
+    if made_from is not None and made_from != today:
+        note = f"made from other inputs ({made_from[:12]}, today {today[:12]})"
         return SourceRun(source, case.case_id, "stale", note, digest=digest)
     return _with_scalars(source, case.case_id, history, digest, None)
 

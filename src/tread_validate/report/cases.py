@@ -8,19 +8,13 @@ from typing import Any
 
 import pandas as pd
 
+from ..study.factors import FACTORS
 from . import wording
 from .tables import number, records
 
-FACTORS = (
-    ("path", "Path"),
-    ("block", "Block"),
-    ("compound", "Compound"),
-    ("friction", "Friction law"),
-    ("temperature_degC", "Temperature, °C"),
-    ("interference_mm", "Interference, mm"),
-    ("speed", "Speed"),
-    ("creep", "Creep ratio"),
-)
+TITLES = {factor.key: factor.title for factor in FACTORS}
+UNITS = {factor.key: factor.unit for factor in FACTORS}
+ALWAYS_TOLD = ("path", "block", "temperature_degC", "interference_mm", "speed", "creep")
 PATHS = {"rig": "two-wheel rig", "simplified": "belt, simplified", "mid_top": "belt, mid-top trace"}
 
 
@@ -38,44 +32,55 @@ class CaseView:
 
 def case_views(cases: pd.DataFrame) -> tuple[CaseView, ...]:
     """Return the cases in the table's order."""
-    return tuple(_view(row) for row in records(cases))
+    rows = records(cases)
+    return tuple(_view(row, _told([other for other in rows if other["run"] == row["run"]])) for row in rows)
 
 
-def _view(row: dict[str, Any]) -> CaseView:
+def _told(rows: list[dict[str, Any]]) -> list[str]:
+    """Return the factors that stand in a case's label: the usual ones, and what else varies in its run."""
+    return [
+        factor.key
+        for factor in FACTORS
+        if factor.key in ALWAYS_TOLD or len({str(row.get(factor.column)) for row in rows}) > 1
+    ]
+
+
+def _view(row: dict[str, Any], told: list[str]) -> CaseView:
     rpm, speed = number(row["speed_rpm"]), number(row["speed_m_s"])
     creep = number(row["creep_percent"])
     free = str(row["free_rolling"]).lower() in ("true", "1", "1.0")
     levels = {
-        "path": PATHS.get(str(row["path"]), str(row["path"]).replace("_", " ")),
-        "block": str(row["block"]).replace("_", " "),
-        "compound": str(row.get("compound", "")).replace("_", " "),
-        "friction": str(row.get("friction", "")).replace("_", " "),
-        "temperature_degC": _plain(number(row["temperature_degC"])),
-        "interference_mm": _plain(number(row["interference_mm"])),
+        factor.key: _plain(number(row.get(factor.column)))
+        if factor.kind == "number"
+        else str(row.get(factor.column, "")).replace("_", " ")
+        for factor in FACTORS
+    }
+    levels |= {
+        "path": PATHS.get(str(row["path"]), levels["path"]),
         "speed": f"{_plain(rpm)} rpm" if rpm is not None else f"{_plain(speed)} m/s",
         "creep": "free rolling" if free else f"{_plain(creep)} %",
     }
-    parts = [
-        levels["path"],
-        levels["block"],
-        f"{levels['temperature_degC']} °C",
-        f"{levels['interference_mm']} mm",
-        f"{levels['speed']} ({wording.digits(speed)} m/s)" if rpm is not None else levels["speed"],
-    ]
+    words = {key: _with_unit(key, level) for key, level in levels.items()}
+    words |= {key: f"{TITLES[key]} {level}" for key, level in levels.items() if key not in ALWAYS_TOLD}
+    if rpm is not None:
+        words["speed"] += f" ({wording.digits(speed)} m/s)"
     if free:
-        parts.append("free rolling" + (f" (creep {wording.digits(creep)} %)" if creep is not None else ""))
+        words["creep"] += f" (creep {wording.digits(creep)} %)" if creep is not None else ""
     elif creep:
-        parts.append(f"creep {levels['creep']}")
-    return CaseView(str(row["case_id"]), str(row["run"]), levels, " · ".join(parts), str(row["assumed"]), row)
+        words["creep"] = f"creep {levels['creep']}"
+    else:
+        told = [key for key in told if key != "creep"]
+    label = " · ".join(words[key] for key in told)
+    return CaseView(str(row["case_id"]), str(row["run"]), levels, label, str(row["assumed"]), row)
 
 
 def factor_levels(views: tuple[CaseView, ...]) -> list[dict[str, Any]]:
     """Return the factors that vary in the study, each with its levels in order of appearance."""
     found = []
-    for key, label in FACTORS:
-        levels = list(dict.fromkeys(view.levels[key] for view in views))
-        if len(levels) > 1 or key == "path":
-            found.append({"key": key, "label": label, "levels": levels})
+    for factor in FACTORS:
+        levels = list(dict.fromkeys(view.levels[factor.key] for view in views))
+        if len(levels) > 1 or factor.key == "path":
+            found.append({"key": factor.key, "label": factor.title, "levels": levels})
     return found
 
 
@@ -98,13 +103,12 @@ def facets(views: tuple[CaseView, ...]) -> tuple[Facet, ...]:
 
 
 def _facets_of_run(run: str, views: tuple[CaseView, ...]) -> list[Facet]:
-    levels = {key: list(dict.fromkeys(view.levels[key] for view in views)) for key, _ in FACTORS}
-    varying = [key for key, _ in FACTORS if len(levels[key]) > 1]
+    levels = {key: list(dict.fromkeys(view.levels[key] for view in views)) for key in TITLES}
+    varying = [key for key in TITLES if len(levels[key]) > 1]
     ranked = sorted(varying, key=lambda key: -len(levels[key]))
     across = ranked[0] if ranked else "speed"
     down = ranked[1] if len(ranked) > 1 else "path"
     fixed = [key for key in varying if key not in (across, down)]
-    names = dict(FACTORS)
     found = []
     for combination in itertools.product(*(levels[key] for key in fixed)):
         chosen = {
@@ -114,13 +118,13 @@ def _facets_of_run(run: str, views: tuple[CaseView, ...]) -> list[Facet]:
         }
         title = ", ".join([run.replace("_", " "), *map(_with_unit, fixed, combination)])
         rows = tuple((y, tuple(chosen.get((x, y)) for x in levels[across])) for y in levels[down])
-        corner = f"{names[down]} \\ {names[across]}"
+        corner = f"{TITLES[down]} \\ {TITLES[across]}"
         found.append(Facet(title[:1].upper() + title[1:], corner, tuple(levels[across]), rows))
     return found
 
 
 def _with_unit(key: str, level: str) -> str:
-    return {"temperature_degC": f"{level} °C", "interference_mm": f"{level} mm"}.get(key, level)
+    return f"{level} {UNITS[key]}".rstrip()
 
 
 def _plain(value: float | None) -> str:

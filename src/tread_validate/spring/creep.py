@@ -61,7 +61,7 @@ def resolve_creep(cases: Iterable[Case], variant: str = "paper") -> tuple[Case, 
     resolved = []
     for case in cases:
         if case.creep_ratio is None:
-            digest = case.digest()
+            digest = case.digest("spring")
             if digest not in known:
                 known[digest] = round(free_rolling_creep(case, variant), DIGITS) + 0.0
             case = case.with_creep(known[digest])

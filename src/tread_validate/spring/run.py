@@ -40,7 +40,7 @@ def run(case: Case, variant: str = "paper") -> History:
             "producer": f"spring/{variant}",
             "version": version(),
             "commit": commit(),
-            "case_digest": case.digest(),
+            "case_digest": case.digest("spring"),
             "creep_ratio": f"{case.creep_ratio:.9g}",
             "free_rolling": str(case.free_rolling).lower(),
             "assumed": "; ".join(case.assumed()) or "none",

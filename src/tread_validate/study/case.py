@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated
 
 from pydantic import ValidationError
 
 from ..errors import InputError
 from ..units import MM, PERCENT
+from .digest import Label, Numerics, digest_of
 from .models import Block, Compound, DeckSettings, Friction, MeasuredBelt, Rig, Sourced, SpringSettings, Wheel
 
 
@@ -38,14 +39,14 @@ class Case:
         Folder that relative file names in the study refer to.
     """
 
-    case_id: str
-    study_name: str
-    study_digest: str
-    run: str
-    compound_name: str
-    friction_name: str
-    block_name: str
-    path_name: str
+    case_id: Annotated[str, Label("names the case")]
+    study_name: Annotated[str, Label("names the study")]
+    study_digest: Annotated[str, Label("of the study's text, comments and all")]
+    run: Annotated[str, Label("names the run")]
+    compound_name: Annotated[str, Label("the compound itself counts")]
+    friction_name: Annotated[str, Label("the law itself counts")]
+    block_name: Annotated[str, Label("the block itself counts")]
+    path_name: Annotated[str, Label("the path itself counts")]
     compound: Compound
     friction: Friction
     block: Block
@@ -54,11 +55,11 @@ class Case:
     interference: float
     speed: float
     creep_ratio: float | None
-    free_rolling: bool
-    spring: SpringSettings
-    deck: DeckSettings
-    root: Path
-    speed_rpm: float | None = None
+    free_rolling: Annotated[bool, Label("how the creep ratio was found; the ratio itself counts")]
+    spring: Annotated[SpringSettings, Numerics("spring")]
+    deck: Annotated[DeckSettings, Numerics("deck")]
+    root: Annotated[Path, Label("where the data files lie; their contents count")]
+    speed_rpm: Annotated[float | None, Label("the speed in other words")] = None
 
     @property
     def is_rig(self) -> bool:
@@ -99,21 +100,17 @@ class Case:
         named = [getattr(item, "file", None) for item in (self.compound, self.friction, self.path)]
         return tuple(self.root / name for name in named if name is not None)
 
-    def digest(self) -> str:
-        """Return the SHA-256 of all that decides the result (not of labels and notes), in hex."""
-        decides = {
-            "compound": self.compound.model_dump(mode="json", exclude={"origin", "source"}),
-            "friction": self.friction.model_dump(mode="json", exclude={"origin", "source"}),
-            "block": self.block.model_dump(mode="json", exclude={"origin", "source"}),
-            "path": self.path.model_dump(mode="json", exclude={"origin", "source"}),
-            "temperature": self.temperature,
-            "interference": self.interference,
-            "speed": self.speed,
-            "creep_ratio": self.creep_ratio,
-            "spring": self.spring.model_dump(mode="json", exclude={"variants"}),
-            "files": [hashlib.sha256(path.read_bytes()).hexdigest() for path in self.input_files() if path.is_file()],
-        }
-        return hashlib.sha256(json.dumps(decides, sort_keys=True).encode()).hexdigest()
+    def problem_digest(self) -> str:
+        """Return the SHA-256 of the physical problem, in hex: all but labels and the solvers' settings."""
+        return digest_of(self, self.root)
+
+    def digest(self, *solvers: str) -> str:
+        """Return the SHA-256 of the problem and of the settings of `solvers`, in hex.
+
+        ``spring`` and ``deck`` are the settings there are; without a name both count. Labels never do: they are
+        declared where the fields are, so that a new field counts until somebody says otherwise.
+        """
+        return digest_of(self, self.root, solvers or ("spring", "deck"))
 
     def conditions(self) -> dict[str, str | float | bool | None]:
         """Return the conditions as one table row, with units in the keys."""
@@ -124,6 +121,7 @@ class Case:
             "block": self.block_name,
             "compound": self.compound_name,
             "friction": self.friction_name,
+            "poissons_ratio": self.compound.poissons_ratio,
             "temperature_degC": self.temperature,
             "interference_mm": round(self.interference / MM, 9),
             "speed_m_s": round(self.speed, 6),
@@ -150,5 +148,5 @@ def with_mesh(case: Case, settings: Mapping[str, object]) -> Case:
 
 
 def conditions_digest(cases: Iterable[Case]) -> str:
-    """Return one SHA-256 for the conditions of all cases, in hex: labels, notes and variants do not change it."""
+    """Return one SHA-256 for the conditions of all cases, in hex: labels do not change it."""
     return hashlib.sha256("\n".join(f"{case.case_id} {case.digest()}" for case in cases).encode()).hexdigest()

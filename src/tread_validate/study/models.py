@@ -10,12 +10,15 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, StringConstraints, model_validator
 
+from .digest import DataFile, Label, Numerics
+
 Origin = Literal["published", "measured", "assumed", "synthetic"]
 Name = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]{0,23}$")]
 Line = Annotated[str, StringConstraints(min_length=1, max_length=300, pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]+$")]
-FileName = Annotated[str, StringConstraints(min_length=1, max_length=200, pattern=r"^[^\x00-\x1f\x7f]+$")]
+FileName = Annotated[str, StringConstraints(min_length=1, max_length=200, pattern=r"^[^\x00-\x1f\x7f]+$"), DataFile()]
 Positive = Annotated[FiniteFloat, Field(gt=0)]
 NonNegative = Annotated[FiniteFloat, Field(ge=0)]
+PoissonsRatio = Annotated[FiniteFloat, Field(gt=0, lt=0.5)]
 
 
 class Strict(BaseModel):
@@ -27,8 +30,12 @@ class Strict(BaseModel):
 class Sourced(Strict):
     """An input that says where it comes from."""
 
-    origin: Origin = Field(description="published, measured, assumed or synthetic")
-    source: Line = Field(description="where the values come from, in one line")
+    origin: Annotated[Origin, Label("how far the values can be trusted, not what they are")] = Field(
+        description="published, measured, assumed or synthetic"
+    )
+    source: Annotated[Line, Label("where the values come from")] = Field(
+        description="where the values come from, in one line"
+    )
 
 
 class Wlf(Strict):
@@ -42,7 +49,7 @@ class Wlf(Strict):
 class CompoundBase(Sourced):
     """What every compound has."""
 
-    poissons_ratio: Annotated[FiniteFloat, Field(gt=0, lt=0.5)] = 0.47
+    poissons_ratio: PoissonsRatio = 0.47
     density_kg_m3: Positive = 1000.0
     wlf: Wlf = Wlf()
     data_temperature_degC: FiniteFloat = Field(22.0, description="temperature that the relaxation times refer to, degC")
@@ -231,11 +238,14 @@ Wheel = Annotated[Rig | SimplifiedBelt | MeasuredBelt, Field(discriminator="kind
 class Run(Strict):
     """A factor grid: every list is a factor, and the runs are their product."""
 
-    name: Name
+    name: Annotated[Name, Label("names the run")]
     path: Name | Annotated[tuple[Name, ...], Field(min_length=1)]
     block: Name | Annotated[tuple[Name, ...], Field(min_length=1)]
     compound: Name | Annotated[tuple[Name, ...], Field(min_length=1)]
     friction: Name | Annotated[tuple[Name, ...], Field(min_length=1)]
+    poissons_ratio: PoissonsRatio | Annotated[tuple[PoissonsRatio, ...], Field(min_length=1)] | None = Field(
+        None, description="in place of the compound's own"
+    )
     temperature_degC: FiniteFloat | Annotated[tuple[FiniteFloat, ...], Field(min_length=1)]
     interference_mm: Positive | Annotated[tuple[Positive, ...], Field(min_length=1)] = Field(
         description="largest compression of the block"
@@ -267,7 +277,9 @@ class SpringSettings(Strict):
     step_fraction: Annotated[FiniteFloat, Field(gt=0, le=1)] = Field(
         0.5, description="time step as a fraction of the time in which the road moves one element length"
     )
-    variants: Annotated[tuple[Name, ...], Field(min_length=1)] = ("paper",)
+    variants: Annotated[tuple[Name, ...], Field(min_length=1), Label("which models run; each run names its own")] = (
+        "paper",
+    )
 
 
 class DeckSettings(Strict):
@@ -289,17 +301,19 @@ class Study(Strict):
     """A whole study file."""
 
     schema_version: Literal[1]
-    name: Name
-    title: Line
-    notes: tuple[Line, ...] = ()
+    name: Annotated[Name, Label("names the study")]
+    title: Annotated[Line, Label("heads the report")]
+    notes: Annotated[tuple[Line, ...], Label("for the reader")] = ()
     compounds: Annotated[dict[Name, Compound], Field(min_length=1)]
     friction_laws: Annotated[dict[Name, Friction], Field(min_length=1)]
     blocks: Annotated[dict[Name, Block], Field(min_length=1)]
     paths: Annotated[dict[Name, Wheel], Field(min_length=1)]
     runs: Annotated[tuple[Run, ...], Field(min_length=1)]
-    spring: SpringSettings = SpringSettings()
-    deck: DeckSettings = DeckSettings()
-    engine: Literal["embedded", "abaqus", "calculix"] = "embedded"
+    spring: Annotated[SpringSettings, Numerics("spring")] = SpringSettings()
+    deck: Annotated[DeckSettings, Numerics("deck")] = DeckSettings()
+    engine: Annotated[
+        Literal["embedded", "abaqus", "calculix"], Label("which solver makes references; each run names its own")
+    ] = "embedded"
 
     @model_validator(mode="after")
     def _names_exist(self) -> Self:

@@ -31,7 +31,7 @@ def test_history_says_what_made_it(cases: dict[str, Case]) -> None:
     assert history.provenance["case_id"] == BELT
     assert history.provenance["producer"] == "spring/paper"
     assert history.provenance["creep_ratio"] == "0.003"
-    assert history.provenance["case_digest"] == cases[BELT].digest()
+    assert history.provenance["case_digest"] == cases[BELT].digest("spring")
     assert "compound surrogate (synthetic)" in history.provenance["assumed"]
     assert {"version", "commit"} <= set(history.provenance)
 

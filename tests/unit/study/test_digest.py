@@ -1,0 +1,237 @@
+"""No field of a study can be forgotten: each changes the digest of a case or says why it does not."""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+import typing
+from pathlib import Path
+
+import pytest
+from pydantic import BaseModel
+
+from tread_validate.study import Case, Study
+from tread_validate.study.digest import DataFile, Label, Numerics, label_of, marks
+from tread_validate.study.grid import expand
+
+SOURCED = {"origin": "assumed", "source": "for the test"}
+EVERYTHING = {
+    "schema_version": 1,
+    "name": "everything",
+    "title": "Every kind of input, two of each where a run names it",
+    "compounds": {
+        "zener": SOURCED
+        | {
+            "kind": "fractional_zener",
+            "long_term_modulus_MPa": 10.0,
+            "modulus_rise_MPa": 70.0,
+            "corner_frequency_rad_s": 1e5,
+            "exponent": 0.25,
+        },
+        "prony": SOURCED
+        | {
+            "kind": "prony",
+            "long_term_modulus_MPa": 10.0,
+            "terms": [{"modulus_MPa": 3.0, "relaxation_time_s": 0.01}],
+        },
+        "prony_file": SOURCED | {"kind": "prony_file", "file": "one.dat"},
+        "sweeps": SOURCED | {"kind": "sweeps", "file": "one.dat"},
+    },
+    "friction_laws": {
+        "coulomb": SOURCED | {"kind": "coulomb", "kinetic_coefficient": 0.5},
+        "huemer": SOURCED
+        | {"kind": "huemer", "alpha": 0.8, "beta": 0.1, "n": 0.9, "m": 10.0, "a": 3.7, "b": -4.5, "c": 1.8},
+        "table": SOURCED | {"kind": "table", "file": "one.dat"},
+        "huemer_file": SOURCED | {"kind": "huemer_file", "file": "one.dat"},
+    },
+    "blocks": {
+        "sipes": SOURCED
+        | {
+            "shape": "parallelogram",
+            "length_mm": 25.0,
+            "width_mm": 20.0,
+            "height_mm": 8.0,
+            "skew_deg": 20.0,
+            "sipes": [{"position_mm": 12.0, "width_mm": 0.6}],
+        },
+        "plain": SOURCED | {"shape": "rectangle", "length_mm": 25.0, "width_mm": 20.0, "height_mm": 8.0},
+    },
+    "paths": {
+        "rig": SOURCED | {"kind": "rig"},
+        "wheel": SOURCED | {"kind": "rig", "big_wheel_diameter_mm": 800.0},
+        "simplified": SOURCED | {"kind": "simplified_belt"},
+        "measured": SOURCED | {"kind": "measured_belt", "file": "one.dat"},
+    },
+    "runs": [
+        {"name": name, "path": path, "block": block, "compound": compound, "friction": friction}
+        | {"temperature_degC": 22.0, "interference_mm": 0.2, "creep_percent": 0.1}
+        | speed
+        for name, path, block, compound, friction, speed in (
+            ("a", ["simplified", "rig"], "sipes", "zener", "coulomb", {"speed_m_s": 2.0}),
+            ("b", "wheel", "sipes", "prony", "huemer", {"speed_m_s": 3.0}),
+            ("c", "measured", "sipes", "prony_file", "table", {"speed_m_s": 2.0}),
+            ("d", "rig", "plain", "sweeps", "huemer_file", {"speed_rpm": 300.0}),
+            ("e", "rig", "plain", "zener", "coulomb", {"speed_rpm": 300.0, "poissons_ratio": 0.47}),
+        )
+    ],
+}  # a kind of input that is missing here fails the first test
+NAMED = {
+    "path": ("wheel", "rig"),
+    "block": ("plain", "sipes"),
+    "compound": ("zener", "prony"),
+    "friction": ("coulomb", "huemer"),
+}
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    (tmp_path / "one.dat").write_text("1\n", encoding="utf-8")
+    (tmp_path / "two.dat").write_text("2\n", encoding="utf-8")
+    return tmp_path
+
+
+def models_in(annotation: object) -> set[type[BaseModel]]:
+    """Return every model that a value of the annotated type may hold, at any depth."""
+    found: set[type[BaseModel]] = set()
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        found.add(annotation)
+        for item in annotation.model_fields.values():
+            found |= models_in(item.annotation)
+    elif isinstance(annotation, types.UnionType) or typing.get_origin(annotation) is not None:
+        for part in typing.get_args(annotation):
+            found |= models_in(part)
+    return found
+
+
+def places(value: object, at: tuple[object, ...] = ()):
+    """Yield the place (keys and indices from the study down), owner and field of every field in a study."""
+    if isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield (*at, name), value, name
+            yield from places(getattr(value, name), (*at, name))
+    elif isinstance(value, dict):
+        for key, inner in value.items():
+            yield from places(inner, (*at, key))
+    elif isinstance(value, tuple):
+        for index, inner in enumerate(value):
+            yield from places(inner, (*at, index))
+
+
+def changed(value: object, name: str, found: tuple[object, ...]) -> object:
+    """Return another value of the same sort."""
+    if any(isinstance(mark, DataFile) for mark in found):
+        return "two.dat"
+    if name in NAMED:
+        return next(other for other in NAMED[name] if other != value)
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int | float):
+        return value + 1 if isinstance(value, int) else 1.01 * value + 0.001
+    if isinstance(value, str):
+        return f"{value}x"
+    if isinstance(value, tuple):
+        return (*value[:-1], changed(value[-1], "", ())) if value else ("another",)
+    raise TypeError(f"{name}: {value}")
+
+
+def replaced(value: object, at: tuple[object, ...], new: object) -> object:
+    """Return a copy of a study with one value in it replaced."""
+    if not at:
+        return new
+    head, *rest = at
+    if isinstance(value, BaseModel):
+        return value.model_copy(update={head: replaced(getattr(value, head), tuple(rest), new)})
+    if isinstance(value, dict):
+        return value | {head: replaced(value[head], tuple(rest), new)}
+    return tuple(replaced(item, tuple(rest), new) if index == head else item for index, item in enumerate(value))
+
+
+def digests(study: Study, root: Path, *solvers: str) -> list[str]:
+    return [case.digest(*solvers) for case in expand(study, root / "study.yaml", root, "0" * 64)]
+
+
+def test_example_holds_every_model_that_a_study_may_hold():
+    study = Study.model_validate(EVERYTHING)
+    assert {type(owner) for _, owner, _ in places(study)} == models_in(Study)
+
+
+def test_changing_any_field_changes_the_digest_unless_it_is_a_label(root):
+    """Field by field through the whole study: 100 and more places."""
+    study = Study.model_validate(EVERYTHING)
+    plain = digests(study, root)
+    count = 0
+    for at, owner, name in places(study):
+        value, found = getattr(owner, name), marks(type(owner))[name]
+        if value is None or isinstance(value, BaseModel | dict) or models_in(type(owner).model_fields[name].annotation):
+            continue
+        if name == "schema_version":  # of the file's form
+            continue
+        is_label = any(label_of(marks(type(part))[key]) for part, key in _chain(study, at))
+        altered = digests(replaced(study, at, changed(value, name, found)), root)
+        assert (altered == plain) == is_label, f"{'.'.join(map(str, at))}: declare it a Label, or let it count"
+        count += 1
+    assert count > 100
+
+
+def _chain(study: Study, at: tuple[object, ...]):
+    """Yield the models and fields on the way to a place."""
+    value: object = study
+    for key in at:
+        if isinstance(value, BaseModel):
+            yield value, key
+            value = getattr(value, str(key))
+        else:
+            value = value[key]
+
+
+def test_a_factor_left_out_and_given_differ(root):
+    study = Study.model_validate(EVERYTHING)
+    own = replaced(study, ("runs", 4, "poissons_ratio"), None)
+    assert digests(own, root) == digests(study, root)  # 0.47 is what the compound has
+    other = replaced(study, ("runs", 4, "poissons_ratio"), (0.45, 0.49))
+    ids = [case.case_id for case in expand(other, root / "study.yaml", root, "")]
+    assert sum("-nu0p45-" in name for name in ids) == sum("-nu0p49-" in name for name in ids) > 0
+    assert len(set(digests(other, root))) == len(ids)
+
+
+def test_every_field_of_a_case_is_a_label_a_solvers_setting_or_counts(root):
+    study = Study.model_validate(EVERYTHING)
+    case = expand(study, root / "study.yaml", root, "0" * 64)[0]
+    for item in dataclasses.fields(Case):
+        found = marks(Case)[item.name]
+        value = getattr(case, item.name)
+        if isinstance(value, BaseModel | Path):  # the study's own test goes through them
+            continue
+        altered = dataclasses.replace(case, **{item.name: 0.5 if value is None else changed(value, "", ())})
+        assert (altered.digest() == case.digest()) == (label_of(found) is not None), item.name
+
+
+def test_settings_of_a_solver_leave_the_problem_and_the_other_solver_alone(root):
+    study = Study.model_validate(EVERYTHING)
+    coarse = replaced(study, ("spring", "element_length_mm"), 1.0)
+    thick = replaced(study, ("deck", "layers"), 4)
+    case, with_spring, with_deck = (expand(item, root / "study.yaml", root, "")[0] for item in (study, coarse, thick))
+    assert case.problem_digest() == with_spring.problem_digest() == with_deck.problem_digest()
+    assert case.digest("spring") == with_deck.digest("spring") != with_spring.digest("spring")
+    assert case.digest("deck") == with_spring.digest("deck") != with_deck.digest("deck")
+
+
+def test_content_of_a_data_file_counts_and_its_name_does_not(root):
+    study = Study.model_validate(EVERYTHING)
+    plain = digests(study, root)
+    (root / "two.dat").write_text("1\n", encoding="utf-8")
+    moved = replaced(study, ("compounds", "sweeps", "file"), "two.dat")
+    assert digests(moved, root) == plain
+    (root / "one.dat").write_text("3\n", encoding="utf-8")
+    assert digests(study, root) != plain
+    (root / "one.dat").unlink()
+    assert len({*digests(study, root), *plain}) > len(set(plain))
+
+
+def test_every_label_says_why():
+    for model in models_in(Study) | {Case}:
+        for name, found in marks(model).items():
+            for mark in found:
+                assert not isinstance(mark, Label) or len(mark.why) > 5, name
+    solvers = {mark.solver for found in marks(Case).values() for mark in found if isinstance(mark, Numerics)}
+    assert solvers == {"spring", "deck"}
