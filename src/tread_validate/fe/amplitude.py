@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..inp import Block
+from ..kernels import kernel
 
 Floats = NDArray[np.float64]
 
@@ -66,7 +66,7 @@ def read_amplitudes(blocks: list[Block]) -> dict[str, Amplitude]:
     return amplitudes
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def amplitude_at(times, values, integrals, first, last, smooth, guess, t):  # type: ignore[no-untyped-def]
     """Return (value, integral from the first time, piece) of the amplitude in rows `first`..`last`-1 at time `t`.
 

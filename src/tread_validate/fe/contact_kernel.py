@@ -11,12 +11,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from ..kernels import kernel
 
 TWO_PI = 2.0 * math.pi
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def project(segments, x, y):  # type: ignore[no-untyped-def]
     """Return (gap, normal x, normal y) of the nearest point of a profile to (x, y); negative gaps lie inside."""
     best = np.inf
@@ -53,7 +54,7 @@ def project(segments, x, y):  # type: ignore[no-untyped-def]
     return gap, nx, ny
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def face_areas(faces, slaves, x0, u, area):  # type: ignore[no-untyped-def]
     """Write each slave node's share of the current area of the faces (k, 4: positions in `slaves`)."""
     for k in range(slaves.size):
@@ -74,7 +75,7 @@ def face_areas(faces, slaves, x0, u, area):  # type: ignore[no-untyped-def]
             area[faces[k, a]] += share
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def find_contacts(  # type: ignore[no-untyped-def]
     slaves,
     held,
@@ -185,7 +186,7 @@ def find_contacts(  # type: ignore[no-untyped-def]
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def coulomb(count, coefficient, normal_force, stick_force, tangential):  # type: ignore[no-untyped-def]
     """Constant friction: tangential[k] = -(min(mu N, stick force), 0)."""
     for k in range(count):
@@ -193,7 +194,7 @@ def coulomb(count, coefficient, normal_force, stick_force, tangential):  # type:
         tangential[k, 1] = 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def apply_friction(  # type: ignore[no-untyped-def]
     count,
     touching,

@@ -12,7 +12,7 @@ Piola-Kirchhoff stress.
 
 from __future__ import annotations
 
-from numba import njit
+from ..kernels import kernel
 
 LANES = 16
 FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}
@@ -29,7 +29,7 @@ _U, _F, _R, _Q, _D, _S, _I, _P, _G, _T = 0, 24, 33, 42, 54, 60, 66, 73, 82, 123
 WORK_ROWS = 136
 
 
-@njit(cache=True, nogil=True, fastmath=FAST, error_model="numpy", boundscheck=False)
+@kernel(fastmath=FAST, boundscheck=False)
 def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elastic, kind, out, work):  # type: ignore[no-untyped-def]
     """Advance blocks `first`..`last` by one step and write their element forces.
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from ..kernels import kernel
 from .element_kernel import GEO_G, GEO_HOURGLASS, GEO_VOLUME, LANES, STATE_BULK, STATE_STRAIN
 
 COLUMNS = (
@@ -21,7 +21,7 @@ COLUMNS = (
 )
 
 
-@njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
+@kernel(fastmath=True)
 def element_energies(elements, weights, times, u):  # type: ignore[no-untyped-def]
     """Return stored energy, dissipation rate, hourglass energy and bulk viscous work of all elements.
 
@@ -97,7 +97,7 @@ def element_energies(elements, weights, times, u):  # type: ignore[no-untyped-de
     return stored, rate, hourglass, bulk_work
 
 
-@njit(cache=True, nogil=True, fastmath=True, error_model="numpy")
+@kernel(fastmath=True)
 def kinetic_energy(v, mass):  # type: ignore[no-untyped-def]
     """Return half the sum of m v^2; `v` flat, `mass` per node."""
     total = 0.0

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 
+from ..kernels import kernel
 from .contact_kernel import apply_friction, coulomb, face_areas, find_contacts
 from .element_kernel import block_forces
 from .step_kernel import (
@@ -145,7 +146,7 @@ class Pair(NamedTuple):
     count: Any
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def]
     """Do one chunk of the element loop; return its least volume ratio."""
     total = elements.kind.size
@@ -156,7 +157,7 @@ def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def node_loop(chunk, chunks, half_sum, dt, elements, nodes):  # type: ignore[no-untyped-def]
     """Do one chunk of the node loop."""
     total = elements.slot_start.size - 1
@@ -164,7 +165,7 @@ def node_loop(chunk, chunks, half_sum, dt, elements, nodes):  # type: ignore[no-
     kick_and_drift(first, last, half_sum, dt, nodes.inverse_mass, nodes.force, nodes.load, nodes.v, nodes.u)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def gather_loop(chunk, chunks, elements, nodes):  # type: ignore[no-untyped-def]
     """Do one chunk of the gathering of element forces."""
     total = elements.slot_start.size - 1
@@ -172,7 +173,7 @@ def gather_loop(chunk, chunks, elements, nodes):  # type: ignore[no-untyped-def]
     gather_forces(first, last, elements.out, elements.slots, elements.slot_start, nodes.force)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs):  # type: ignore[no-untyped-def]
     """Loads at the start of the increment, and what the node loop will overwrite but is still needed."""
     if loads.dof.size or loads.pressure.size:
@@ -197,7 +198,7 @@ def before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs):  # type: 
                 pair.arrival[k, c] = nodes.v[3 * pair.slaves[k] + c]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bodies, work):  # type: ignore[no-untyped-def]
     """Put prescribed degrees of freedom and rigid bodies where they are at the end of the increment."""
     evaluate_amplitudes(
@@ -250,7 +251,7 @@ def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bod
             work[0] += reaction * 0.5 * (before + now) * half_sum
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pairs, work):  # type: ignore[no-untyped-def]
     """Correct the trial motion of the slave nodes; return pair and contact of the first bad friction force, or -1."""
     for number in range(len(pairs)):
@@ -310,7 +311,7 @@ def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pair
     return -1, -1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]
     """Do everything of an increment between the node loop and the element loop; return pair and contact gone bad."""
     clock[0] += dt
@@ -326,7 +327,7 @@ def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pa
     return found
 
 
-@njit(cache=True, nogil=True, parallel=True, error_model="numpy")
+@kernel(parallel=True)
 def advance(increments, dt, clock, elements, nodes, amplitudes, prescribed, loads, bodies, pairs, work, fault):  # type: ignore[no-untyped-def]
     """Run `increments` increments of `dt`, the chunks of the loops spread over the threads that numba has.
 

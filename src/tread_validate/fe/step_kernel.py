@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ..kernels import kernel
 from .amplitude import amplitude_at
 from .element_kernel import LANES
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def gather_forces(first, last, element_force, slots, slot_start, force):  # type: ignore[no-untyped-def]
     """Sum the element forces (rows of LANES: x, y, z) of nodes `first`..`last` into `force` (3 n,)."""
     f = element_force.reshape(-1)
@@ -29,7 +29,7 @@ def gather_forces(first, last, element_force, slots, slot_start, force):  # type
         force[3 * node + 2] = z
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def kick_and_drift(first, last, half_sum, dt, inverse_mass, force, load, v, u):  # type: ignore[no-untyped-def]
     """v += (load - force)/m (dt_old + dt)/2, u += v dt for nodes `first`..`last` (central differences)."""
     for node in range(first, last):
@@ -39,7 +39,7 @@ def kick_and_drift(first, last, half_sum, dt, inverse_mass, force, load, v, u): 
             u[c] += dt * v[c]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def evaluate_amplitudes(amp_row, amp_time, amp_value, amp_area, amp_smooth, amp_base, guess, total, value, area):  # type: ignore[no-untyped-def]
     """Evaluate every amplitude at the total time `total` into `value` and `area` (integral from its first time)."""
     for k in range(amp_smooth.size):
@@ -48,7 +48,7 @@ def evaluate_amplitudes(amp_row, amp_time, amp_value, amp_area, amp_smooth, amp_
         )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def prescribed_value(kind, magnitude, amplitude, start, area_start, step_time, value, area):  # type: ignore[no-untyped-def]
     """Return the displacement a condition asks for: held, integral of a velocity (exact), or a displacement."""
     if kind == 0:
@@ -60,7 +60,7 @@ def prescribed_value(kind, magnitude, amplitude, start, area_start, step_time, v
     return magnitude * value[amplitude]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def rotate(ax, ay, az, matrix):  # type: ignore[no-untyped-def]
     """Turn the rows' frame `matrix` (3, 3) in place by a rotation vector (Rodrigues)."""
     angle = math.sqrt(ax * ax + ay * ay + az * az)
@@ -76,7 +76,7 @@ def rotate(ax, ay, az, matrix):  # type: ignore[no-untyped-def]
         matrix[2, j] = z + s * (kx * y - ky * x) + c * (kz * dot - z)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel()
 def pressure_loads(faces, magnitude, amplitude, value, x0, u, load):  # type: ignore[no-untyped-def]
     """Add the nodal forces of pressures on faces (k, 4), which follow the deformation."""
     d = np.zeros(3)

@@ -17,12 +17,13 @@ from typing import Any
 
 import numpy as np
 from llvmlite import ir  # type: ignore[import-untyped]
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from ..errors import EngineError, InputError, one_line
 from ..files import read_text
+from ..kernels import kernel
 
 ARGUMENTS = 42
 NAME_LENGTH = 80
@@ -114,7 +115,7 @@ def call_vfric(typingctx, address, table):  # type: ignore[no-untyped-def]
     return types.void(types.int64, types.int64), generate
 
 
-@njit(cache=True, nogil=True)
+@kernel()
 def call_at(address, table):  # type: ignore[no-untyped-def]
     """Call VFRIC once with the arguments whose addresses `table` lists."""
     call_vfric(address, table.ctypes.data)  # type: ignore[call-arg]

@@ -7,16 +7,17 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from ..kernels import kernel
 
 Array = NDArray[np.float64]
 
 COULOMB, HUEMER, TABLE = 0, 1, 2
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def kinetic_kernel(
     code: int, parameters: Array, pressures: Array, slip_speeds: Array, table: Array, pressure: float, slip_speed: float
 ) -> float:
@@ -49,7 +50,7 @@ def kinetic_kernel(
     return float(below * (1.0 - fi) + above * fi)
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def _cell(grid: Array, value: float) -> tuple[int, float]:
     """Return the cell of `grid` that holds `value` and the place in it, 0..1, in the logarithm; ends are held."""
     last = grid.size - 1
@@ -63,7 +64,7 @@ def _cell(grid: Array, value: float) -> tuple[int, float]:
     return i, math.log(value / grid[i]) / math.log(grid[i + 1] / grid[i])
 
 
-@numba.njit(cache=True, error_model="numpy")
+@kernel()
 def kinetic_array(
     code: int, parameters: Array, pressures: Array, slip_speeds: Array, table: Array, pressure: Array, slip_speed: Array
 ) -> Array:

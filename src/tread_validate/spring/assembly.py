@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels import kernel
 from .element import INTEGRALS
-from .jit import kernel
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels import kernel
 from .inputs import Grip, Memory, Motion, Rubber
-from .jit import kernel
 from .kinematics import foot, sliding, sticking
 from .memory import LEVELS, STAGE, TICKS
 from .slip import kinetic, slip_stage

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
+from ..kernels import kernel
 from .inputs import Motion
-from .jit import kernel
 
 Foot = tuple[float, float, float, float, float]
 

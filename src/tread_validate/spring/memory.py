@@ -16,8 +16,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels import kernel
 from .inputs import Memory, Rubber
-from .jit import kernel
 
 Array = NDArray[np.float64]
 

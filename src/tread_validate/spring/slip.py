@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..friction import kinetic_kernel
+from ..kernels import kernel
 from .inputs import Grip, Motion, Rubber
-from .jit import kernel
 from .kinematics import Foot, sliding
 
 Array = NDArray[np.float64]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +11,6 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from tread_validate.geometry import path_of
-from tread_validate.spring import jit
 from tread_validate.spring.block_pass import prepare
 from tread_validate.spring.kinematics import foot, sliding, sticking
 from tread_validate.spring.memory import moments
@@ -68,11 +66,3 @@ def test_sticking_and_sliding_agree_on_a_contact_point(cases: dict[str, Case], c
     step = 1e-7
     shifted = sliding(motion, at, lag + step)[0] - sliding(motion, at, lag - step)[0]
     assert slope == pytest.approx(shifted / (2 * step), abs=1e-6)
-
-
-def test_cached_kernels_know_every_source_file_with_a_kernel() -> None:
-    """Each module of the package that compiles something is in the digest, or an edit would run yesterday's code."""
-    folder = Path(jit.__file__).parent
-    with_kernels = {path.name for path in folder.glob("*.py") if "@kernel(" in path.read_text(encoding="utf-8")}
-    assert with_kernels <= set(jit.KERNEL_FILES)
-    assert len(jit.sources_digest()) == 64

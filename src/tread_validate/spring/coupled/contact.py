@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...friction import kinetic_kernel
-from ..jit import kernel
+from ...kernels import kernel
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..jit import kernel
+from ...kernels import kernel
 from .contact import FREE, SLIP, solve_contact
 
 Array = NDArray[np.float64]
