@@ -1,6 +1,5 @@
 """The viscoelastic spring model of a tread block in contact (section 4 of the paper)."""
 
-from . import rungs as rungs  # makes the other variants known
 from .creep import free_rolling_creep, resolve_creep
 from .detail import ElementHistory, FaceAtInstant, element_history, face_at
 from .run import run

@@ -198,6 +198,11 @@ def _step(case: Case, path: Path, element_length: float) -> float:
     return transit / (parts * math.ceil(transit / (2.0 * longest) - 1e-9))
 
 
+def prepare_light(case: Case) -> BlockPass:
+    """Return the case ready to run, with a hundredth of the lumped mass."""
+    return prepare(case, mass_factor=1e-2)
+
+
 def _rubber(case: Case) -> PronySeries:
     """Return the compound's series at the case's temperature; one without a data file is worked out once."""
     if case.input_files():

@@ -8,7 +8,7 @@ from ..history import History
 from ..provenance import commit, version
 from ..study import Case
 from .creep import resolve_creep
-from .variants import pass_of
+from .variants import code_digest, pass_of
 
 AFTER = 0.02
 """A history goes on for this fraction of the contact time after the block has let go."""
@@ -40,6 +40,7 @@ def run(case: Case, variant: str = "paper") -> History:
             "producer": f"spring/{variant}",
             "version": version(),
             "commit": commit(),
+            "code": code_digest(variant),
             "case_digest": case.digest("spring"),
             "creep_ratio": f"{case.creep_ratio:.9g}",
             "free_rolling": str(case.free_rolling).lower(),

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import importlib
+from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..source_code import UNKNOWN, digest_of
 from ..study import Case
-from .block_pass import prepare
 
 Array = NDArray[np.float64]
 
@@ -29,29 +31,72 @@ class Pass(Protocol):
         """Return the time integral of the shear force over the pass, N s."""
 
 
-_VARIANTS: dict[str, tuple[Callable[[Case], Pass], str]] = {}
+Make = Callable[[Case], Pass]
+
+# name -> where the variant is made ("module:function", below this package), and one line for a reader. A module is
+# imported when its variant is run, and code digests read this table: a change in one variant leaves the others as
+# they are.
+BUILT_IN: Mapping[str, tuple[str, str]] = {
+    "paper": ("block_pass:prepare", "independent springs with lumped mass, section 4 of the paper"),
+    "light": (
+        "block_pass:prepare_light",
+        "the same with a hundredth of the lumped mass: near the massless limit |F_l| = mu_k F_r",
+    ),
+    "bonded": (
+        "bonded:prepare_bonded",
+        "the paper's springs with the block's apparent moduli, from one static elastic solve",
+    ),
+    "bonded_theory": (
+        "bonded:prepare_bonded_theory",
+        "the same with moduli from shape-factor theory, for rectangles",
+    ),
+    "coupled": (
+        "coupled.face_pass:prepare_coupled",
+        "springs that know their neighbours: the block condensed on to its face, 1 mm",
+    ),
+    "coupled_coarse": ("coupled.face_pass:prepare_coarse", "the same on a 2 mm face, for many runs"),
+}
+COMMON = ("spring.run", "spring.summary", "spring.block_pass")
+"""Code behind every variant: the run, its summary, and the paper's model, which finds the creep of free rolling."""
+
+_ADDED: dict[str, tuple[Make, str]] = {}
 
 
-def register(name: str, make: Callable[[Case], Pass], summary: str) -> None:
+def register(name: str, make: Make, summary: str) -> None:
     """Add a variant; `make` turns a case into a pass, `summary` is one line for a reader."""
-    _VARIANTS[name] = (make, summary)
+    _ADDED[name] = (make, summary)
 
 
 def variants() -> dict[str, str]:
     """Return the known variants and their one-line summaries."""
-    return {name: summary for name, (_, summary) in _VARIANTS.items()}
+    known = {name: summary for name, (_, summary) in BUILT_IN.items()}
+    return known | {name: summary for name, (_, summary) in _ADDED.items()}
 
 
 def pass_of(case: Case, variant: str = "paper") -> Pass:
     """Return the case ready to run; raises `InputError` for an unknown variant or a case that cannot be."""
-    if variant not in _VARIANTS:
-        raise InputError("spring variant", variant, f"one of {', '.join(_VARIANTS)}")
-    return _VARIANTS[variant][0](case)
+    return _maker(variant)(case)
 
 
-register("paper", prepare, "independent springs with lumped mass, section 4 of the paper")
-register(
-    "light",
-    lambda case: prepare(case, mass_factor=1e-2),
-    "the same with a hundredth of the lumped mass: near the massless limit |F_l| = mu_k F_r",
-)
+@cache
+def code_digest(variant: str) -> str:
+    """Return the digest of the code that can change a variant's results; ``unknown`` for one that was added.
+
+    Raises `InputError` for an unknown variant.
+    """
+    if variant in _ADDED:
+        return UNKNOWN
+    if variant not in BUILT_IN:
+        raise InputError("spring variant", variant, f"one of {', '.join(variants())}")
+    module, _, _ = BUILT_IN[variant][0].partition(":")
+    return digest_of((*COMMON, f"spring.{module}"))
+
+
+def _maker(variant: str) -> Make:
+    if variant in _ADDED:
+        return _ADDED[variant][0]
+    if variant not in BUILT_IN:
+        raise InputError("spring variant", variant, f"one of {', '.join(variants())}")
+    module, _, function = BUILT_IN[variant][0].partition(":")
+    make: Make = getattr(importlib.import_module(f"{__package__}.{module}"), function)
+    return make

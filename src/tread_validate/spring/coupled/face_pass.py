@@ -54,3 +54,8 @@ class CoupledPass:
 def prepare_coupled(case: Case, settings: CoupledSettings | None = None) -> CoupledPass:
     """Return the case ready to run; raises `InputError` for a path, a block or a data file that will not do."""
     return CoupledPass(case, settings or CoupledSettings(), path_of(case).contact_duration / SAMPLES)
+
+
+def prepare_coarse(case: Case) -> CoupledPass:
+    """Return the case ready to run on the 2 mm face of `COARSE`."""
+    return prepare_coupled(case, COARSE)

@@ -1,0 +1,116 @@
+"""Digests of the code behind a result: what counts, what does not, and where an edit reaches."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tread_validate import source_code
+from tread_validate.errors import InputError
+from tread_validate.source_code import PACKAGE, PARTS, code_digest, digest_of, modules_of
+from tread_validate.spring.variants import BUILT_IN, COMMON
+
+VARIANTS = {name: (*COMMON, f"spring.{place.partition(':')[0]}") for name, (place, _) in BUILT_IN.items()}
+
+
+def digests(root: Path, names: tuple[str, ...]) -> dict[str, str]:
+    """Return today's digests of parts and variants in a copy of the package."""
+    digest_of.cache_clear()
+    source_code._graph.cache_clear()
+    return {name: digest_of(PARTS.get(name) or VARIANTS[name], root) for name in names}
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the package's source, to edit."""
+    target = tmp_path_factory.mktemp("source") / "tread_validate"
+    shutil.copytree(PACKAGE, target, ignore=shutil.ignore_patterns("__pycache__"))
+    return target
+
+
+@pytest.mark.parametrize(
+    ("file", "changed", "kept"),
+    [
+        ("spring/coupled/march.py", {"coupled"}, {"paper", "fe", "deck"}),
+        ("spring/element.py", {"paper", "bonded", "coupled", "deck"}, {"fe", "friction", "material"}),
+        ("material/prony.py", {"material", "paper", "coupled", "deck"}, {"fe", "friction"}),
+        ("fe/contact_kernel.py", {"fe"}, {"paper", "coupled", "deck", "compare"}),
+        ("friction/kernel.py", {"friction", "paper", "coupled"}, {"fe", "material"}),
+        ("report/html.py", {"report"}, {"compare", "paper", "fe"}),
+        ("deck/mesh.py", {"deck"}, {"paper", "fe"}),
+    ],
+)
+def test_an_edit_changes_the_digests_of_what_rests_on_it_and_no_other(
+    file: str, changed: set[str], kept: set[str], copy: Path
+) -> None:
+    """Adding a statement to a module changes the parts that import it; taking it back restores every digest."""
+    names = tuple(sorted(changed | kept))
+    before = digests(copy, names)
+    path = copy / file
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text + "\nEDITED = 1\n", encoding="utf-8")
+    after = digests(copy, names)
+    path.write_text(text, encoding="utf-8")
+    assert {name for name in names if before[name] != after[name]} == changed
+    assert digests(copy, names) == before
+
+
+@pytest.mark.parametrize("what", ["comment", "docstring", "blank lines", "words of an error"])
+def test_what_changes_no_number_changes_no_digest(what: str, copy: Path) -> None:
+    """Comments, docstrings, layout and messages are left out."""
+    path = copy / "fe" / "run.py"
+    text = path.read_text(encoding="utf-8")
+    edited = {
+        "comment": text.replace("def run_deck(", "# why\ndef run_deck(  # here\n    "),
+        "docstring": text.replace('"""Run a deck from its files."""', '"""Run a deck."""'),
+        "blank lines": text.replace("\n    source = ", "\n\n\n    source = "),
+        "words of an error": re.sub(r'"1 or more"', '"at least 1"', text),
+    }[what]
+    assert edited != text
+    before = digests(copy, ("fe",))
+    path.write_text(edited, encoding="utf-8")
+    after = digests(copy, ("fe",))
+    path.write_text(text, encoding="utf-8")
+    assert after == before
+
+
+def test_a_template_counts_for_the_part_that_it_lies_beside(copy: Path) -> None:
+    """The friction routine's template belongs to the decks, the page's style to the report."""
+    before = digests(copy, ("deck", "report", "compare"))
+    path = copy / "deck" / "templates" / "vfric.f"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text + "c\n", encoding="utf-8")
+    after = digests(copy, ("deck", "report", "compare"))
+    path.write_text(text, encoding="utf-8")
+    assert after["deck"] != before["deck"]
+    assert (after["report"], after["compare"]) == (before["report"], before["compare"])
+
+
+def test_names_are_traced_through_packages_to_their_modules(copy: Path) -> None:
+    """The paper's variant needs the friction laws, not the coupled model that its package offers as well."""
+    names = modules_of(VARIANTS["paper"])
+    assert "friction.laws" in names
+    assert "spring (names)" in names
+    assert not any(name.startswith("spring.coupled") for name in names)
+    assert "spring.coupled.march" in modules_of(VARIANTS["coupled"])
+    assert not any(name.startswith(("spring", "material", "friction")) for name in modules_of(PARTS["fe"]))
+
+
+def test_a_package_s_other_modules_count_where_a_name_cannot_be_traced(tmp_path: Path) -> None:
+    """A name that an __init__ makes up at run time leads to the whole package: never too little."""
+    room = tmp_path / "pkg" / "room"
+    room.mkdir(parents=True)
+    (tmp_path / "pkg" / "__init__.py").write_text("")
+    (room / "__init__.py").write_text("def __getattr__(name):\n    return find(name)\n")
+    (room / "inner.py").write_text("x = 1\n")
+    (tmp_path / "pkg" / "user.py").write_text("from .room import y\n")
+    assert "room.inner" in modules_of(("user",), tmp_path / "pkg")
+
+
+def test_an_unknown_part_is_refused() -> None:
+    """One line with the parts that there are."""
+    with pytest.raises(InputError, match="got engine, expected one of study, material"):
+        code_digest("engine")
