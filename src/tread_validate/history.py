@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError, one_line
 from .files import read_text, write_text
 from .provenance import sha256_text
 
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
 COLUMNS = ("time_s", "normal_force_N", "tangential_force_N", "slipping_fraction")
+NEEDED = COLUMNS[:2]
+"""What every history has; a model that does not know the others leaves them out."""
+OPTIONAL = ("tangential_force", "slipping_fraction")
+FORMATS = ("%.9f", "%.5f", "%.5f", "%.5f")
 
 
 @dataclass(frozen=True)
@@ -29,9 +37,9 @@ class History:
     normal_force : (n,) array, N
         Compression is positive.
     tangential_force : (n,) array, N
-        Force of the road on the block, positive towards the leading edge (-x).
+        Force of the road on the block, positive towards the leading edge (-x); nan throughout where it is not given.
     slipping_fraction : (n,) array, 0..1
-        Share of the touching area that slips.
+        Share of the touching area that slips; nan throughout where it is not given.
     provenance : mapping of str to str
         Case id, producer, version, commit, input digests.
     """
@@ -49,6 +57,73 @@ class History:
             object.__setattr__(self, name, values)
         check(self, "history")
 
+    @classmethod
+    def of(
+        cls,
+        time: ArrayLike,
+        normal_force: ArrayLike,
+        tangential_force: ArrayLike | None = None,
+        slipping_fraction: ArrayLike | None = None,
+        provenance: Mapping[str, str] | None = None,
+    ) -> History:
+        """Return a history of the columns that are known; the others count as not given."""
+        first = np.asarray(time, dtype=np.float64)
+        unknown = np.full(first.shape, np.nan)
+        return cls(
+            first,
+            np.asarray(normal_force, dtype=np.float64),
+            unknown if tangential_force is None else np.asarray(tangential_force, dtype=np.float64),
+            unknown if slipping_fraction is None else np.asarray(slipping_fraction, dtype=np.float64),
+            {} if provenance is None else provenance,
+        )
+
+    @property
+    def gives_tangential(self) -> bool:
+        """Whether the tangential force is known."""
+        return not bool(np.isnan(self.tangential_force[0]))
+
+    @property
+    def gives_slip(self) -> bool:
+        """Whether the slipping share is known."""
+        return not bool(np.isnan(self.slipping_fraction[0]))
+
+    def with_provenance(self, provenance: Mapping[str, str]) -> History:
+        """Return the same forces with another provenance."""
+        return replace(self, provenance=provenance)
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the history as a data frame, with the columns that are given, units in their names."""
+        import pandas as pd
+
+        return pd.DataFrame(dict(zip(self._names(), self._columns(), strict=True)))
+
+    def plot(self, axes: Axes | None = None, label: str | None = None) -> Axes:
+        """Draw normal (solid) and tangential force (dashed) in N against time in ms; returns the axes."""
+        from matplotlib import pyplot
+
+        ax = axes if axes is not None else pyplot.subplots()[1]
+        name = label if label is not None else self.provenance.get("producer", "")
+        (line,) = ax.plot(1e3 * self.time, self.normal_force, label=f"{name} N".strip())
+        if self.gives_tangential:
+            ax.plot(1e3 * self.time, self.tangential_force, "--", color=line.get_color(), label=f"{name} T".strip())
+        ax.set_xlabel("time, ms")
+        ax.set_ylabel("force, N")
+        ax.legend()
+        return ax
+
+    def __repr__(self) -> str:
+        """Say whose history it is, how long and how large."""
+        who = " ".join(self.provenance[key] for key in ("producer", "case_id") if key in self.provenance)
+        tangential = (
+            f", T {self.tangential_force.min():.4g} to {self.tangential_force.max():.4g} N"
+            if self.gives_tangential
+            else ", T not given"
+        )
+        return (
+            f"<History {who + ': ' if who else ''}{self.time.size} samples to {1e3 * self.time[-1]:.4g} ms, "
+            f"peak N {self.normal_force.max():.4g} N{tangential}>"
+        )
+
     def write_csv(self, path: Path | str) -> None:
         """Write the history with its provenance in ``# key: value`` lines, atomically."""
         write_text(path, self.to_csv())
@@ -59,20 +134,29 @@ class History:
         return sha256_text("\n".join(rows))
 
     def to_csv(self) -> str:
-        """Return the CSV text (time to 1 ns, forces to 10 µN)."""
+        """Return the CSV text (time to 1 ns, forces to 10 µN) of the columns that are given."""
         head = "".join(f"# {one_line(str(k))}: {one_line(str(v))}\n" for k, v in self.provenance.items())
+        names = self._names()
         rows = io.StringIO()
-        np.savetxt(
-            rows,
-            np.column_stack([self.time, self.normal_force, self.tangential_force, self.slipping_fraction]) + 0.0,
-            fmt=["%.9f", "%.5f", "%.5f", "%.5f"],
-            delimiter=",",
-        )
-        return head + ",".join(COLUMNS) + "\n" + rows.getvalue().replace("-0.00000", "0.00000")
+        formats = [form for name, form in zip(COLUMNS, FORMATS, strict=True) if name in names]
+        np.savetxt(rows, np.column_stack(self._columns()) + 0.0, fmt=formats, delimiter=",")
+        return head + ",".join(names) + "\n" + rows.getvalue().replace("-0.00000", "0.00000")
+
+    def _names(self) -> tuple[str, ...]:
+        given = (True, True, self.gives_tangential, self.gives_slip)
+        return tuple(name for name, known in zip(COLUMNS, given, strict=True) if known)
+
+    def _columns(self) -> list[NDArray[np.float64]]:
+        columns = (self.time, self.normal_force, self.tangential_force, self.slipping_fraction)
+        names = self._names()
+        return [column for name, column in zip(COLUMNS, columns, strict=True) if name in names]
 
     @classmethod
     def read_csv(cls, path: Path | str) -> History:
-        """Read a history; raises `InputError` for a wrong header, a non-number or unsorted times."""
+        """Read a history; columns beyond the four that are known are left aside.
+
+        Raises `InputError` for a wrong header, a row of another length, a non-number or unsorted times.
+        """
         lines = read_text(path).splitlines()
         provenance: dict[str, str] = {}
         start = 0
@@ -81,21 +165,57 @@ class History:
             provenance[key.strip()] = value.strip()
             start += 1
         header = tuple(name.strip() for name in lines[start].split(",")) if start < len(lines) else ()
-        if header != COLUMNS:
-            raise InputError(f"{path}:{start + 1}", ",".join(header) or "no header", "header " + ",".join(COLUMNS))
-        for number, line in enumerate(lines[start + 1 :], start + 2):
-            if line.count(",") != len(COLUMNS) - 1:
-                raise InputError(f"{path}:{number}", line, "four numbers")
+        _check_header(header, f"{path}:{start + 1}")
+        table = _numbers(path, lines[start + 1 :], start + 2, header)
+        found = {name: table[:, header.index(name)] for name in COLUMNS if name in header}
+        time, normal = (found[name] for name in NEEDED)
+        for name, values in found.items():
+            if not np.all(np.isfinite(values)):
+                row = int(np.argmin(np.isfinite(values)))
+                where = f"{path}: {name.removesuffix('_N')}, sample {row + 1}"
+                raise InputError(where, values[row], "a finite number (leave out a column that is not known)")
         try:
-            table = pd.read_csv(io.StringIO("\n".join(lines[start:])), dtype=np.float64)
-        except (ValueError, pd.errors.ParserError) as error:
-            raise InputError(path, error, "numbers only below the header") from None
-        time, normal, tangential, slipping = (table[name].to_numpy(dtype=np.float64) for name in COLUMNS)
-        try:
-            return cls(time, normal, tangential, slipping, provenance)
+            return cls.of(time, normal, found.get(COLUMNS[2]), found.get(COLUMNS[3]), provenance)
         except InputError as error:
             where = error.where.replace("history", str(path), 1)
             raise InputError(where, error.found, error.expected) from None
+
+
+def _check_header(header: tuple[str, ...], where: str) -> None:
+    expected = "a header with time_s,normal_force_N and, where known, tangential_force_N,slipping_fraction"
+    if not set(NEEDED) <= set(header):
+        raise InputError(where, ",".join(header) or "no header", expected)
+    if len(set(header)) != len(header):
+        raise InputError(where, ",".join(header), "each column once")
+
+
+def _numbers(path: Path | str, lines: list[str], first: int, header: tuple[str, ...]) -> NDArray[np.float64]:
+    """Return the rows of the known columns as numbers; other columns are nan, whatever stands in them."""
+    commas = len(header) - 1
+    for number, line in enumerate(lines, first):
+        if line.count(",") != commas:
+            raise InputError(f"{path}:{number}", line, f"{len(header)} values")
+    known = [index for index, name in enumerate(header) if name in COLUMNS]
+    table = np.full((len(lines), len(header)), np.nan)
+    if not lines:
+        return table
+    try:
+        table[:, known] = np.loadtxt(lines, delimiter=",", usecols=known, ndmin=2, comments=None)
+    except ValueError:
+        number, value = _first_fault(lines, first, known)
+        raise InputError(f"{path}:{number}", value, "a number") from None
+    return table
+
+
+def _first_fault(lines: list[str], first: int, known: list[int]) -> tuple[int, str]:
+    for number, line in enumerate(lines, first):
+        parts = line.split(",")
+        for index in known:
+            try:
+                float(parts[index])
+            except ValueError:
+                return number, parts[index].strip() or "nothing"
+    return first, lines[0] if lines else "no rows"
 
 
 def check(history: History, where: str) -> None:
@@ -107,6 +227,8 @@ def check(history: History, where: str) -> None:
         values = getattr(history, name)
         if values.shape != (n,):
             raise InputError(f"{where}: {name}", f"shape {values.shape}", f"shape ({n},) as time has")
+        if name in OPTIONAL and np.all(np.isnan(values)):
+            continue
         if not np.all(np.isfinite(values)):
             row = int(np.argmin(np.isfinite(values)))
             raise InputError(f"{where}: {name}, sample {row + 1}", values[row], "a finite number")

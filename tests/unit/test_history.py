@@ -42,7 +42,7 @@ def test_history_reads_back_within_its_printed_digits(tmp_path_factory, forces, 
         (f"{HEADER}\n", "0 sample"),
         (f"{HEADER}\n0,1,2,0\n1,x,2,0\n", "x"),
         (f"{HEADER}\n0,1,2\n1,1,2\n", "h.csv:2: got 0,1,2"),
-        (f"{HEADER}\n0,1,2,0,9\n1,1,2,0,9\n", "expected four numbers"),
+        (f"{HEADER}\n0,1,2,0,9\n1,1,2,0,9\n", "expected 4 values"),
         ("# a: b\n", "no header"),
     ],
 )
@@ -59,3 +59,29 @@ def test_history_cannot_be_changed_after_the_fact():
     history = History(np.arange(3.0), *np.zeros((3, 3)))
     with pytest.raises(ValueError, match="read-only"):
         history.normal_force[0] = 1.0
+
+
+def test_a_model_leaves_out_what_it_does_not_know_and_adds_what_it_likes(tmp_path):
+    path = tmp_path / "h.csv"
+    path.write_text("temperature,time_s,normal_force_N\nhot,0,1\nhot,1,2\n")
+    history = History.read_csv(path)
+    assert list(history.normal_force) == [1.0, 2.0]
+    assert not history.gives_tangential
+    assert not history.gives_slip
+    assert history.to_csv() == "time_s,normal_force_N\n0.000000000,1.00000\n1.000000000,2.00000\n"
+    assert list(history.to_frame().columns) == ["time_s", "normal_force_N"]
+    assert "T not given" in repr(history)
+
+
+def test_a_column_of_nan_is_a_fault_not_a_column_left_out(tmp_path):
+    path = tmp_path / "h.csv"
+    path.write_text(f"{HEADER}\n0,1,nan,0\n1,2,nan,0\n")
+    with pytest.raises(InputError, match="leave out a column"):
+        History.read_csv(path)
+
+
+def test_forces_in_kilonewtons_by_their_header_are_refused(tmp_path):
+    path = tmp_path / "h.csv"
+    path.write_text("time_s,normal_force_kN\n0,1\n1,2\n")
+    with pytest.raises(InputError, match="normal_force_N"):
+        History.read_csv(path)
