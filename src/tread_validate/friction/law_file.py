@@ -10,8 +10,9 @@ from pydantic import Field, ValidationError
 
 from ..errors import InputError, one_line
 from ..files import read_text
-from ..study import Huemer, load_yaml
+from ..study import Huemer
 from ..units import KPA, MM
+from ..yaml_text import load_yaml
 from .fit import CONSTANTS, FrictionFit
 from .laws import FrictionLaw, huemer_law
 

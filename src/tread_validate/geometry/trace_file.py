@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..files import read_text, write_text
-from ..study import load_yaml
 from ..units import MM
+from ..yaml_text import load_yaml
 from .trace import LevelledTrace, RidgeHeights
 
 Array = NDArray[np.float64]

@@ -14,7 +14,7 @@ from ..errors import InputError, one_line
 from ..files import read_text, write_text
 from ..history import History
 from ..provenance import sha256_file
-from ..study import load_yaml
+from ..yaml_text import load_yaml
 from .rig_passes import RigPasses, Spread
 
 PEAKS = "peaks.csv"

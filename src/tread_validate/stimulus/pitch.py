@@ -9,10 +9,10 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, ValidationError, model_validator
 
 from ..errors import InputError, one_line
+from ..fields import Name, NonNegative, Positive, Sourced, Strict
 from ..files import read_text
-from ..study.load import load_yaml
-from ..study.models import Name, NonNegative, Positive, Sourced, Strict
 from ..units import MM
+from ..yaml_text import load_yaml
 
 MOST_BLOCKS = 5_000
 CLOSURE = 1e-9  # relative: ribs of one tyre have one circumference

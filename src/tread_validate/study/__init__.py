@@ -1,31 +1,23 @@
 """What is to be run: a study file, its models and its cases."""
 
+from ..yaml_text import load_yaml
+from .block import Block, Sipe
 from .case import Case, conditions_digest, with_mesh
-from .load import LoadedStudy, load_study, load_yaml
-from .models import (
-    Block,
+from .compound import (
     Compound,
-    Coulomb,
-    DeckSettings,
     FitSettings,
     FractionalZener,
-    Friction,
-    FrictionTable,
-    Huemer,
-    HuemerFile,
-    MeasuredBelt,
     PronyCompound,
     PronyFile,
     PronyTerm,
-    Rig,
-    SimplifiedBelt,
-    Sipe,
-    SpringSettings,
-    Study,
     SweepFile,
-    Wheel,
     Wlf,
 )
+from .document import Study
+from .friction import Coulomb, Friction, FrictionTable, Huemer, HuemerFile
+from .load import LoadedStudy, load_study
+from .path import MeasuredBelt, Rig, SimplifiedBelt, Wheel
+from .settings import DeckSettings, SpringSettings
 
 __all__ = [
     "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FractionalZener", "Friction",

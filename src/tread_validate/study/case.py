@@ -11,9 +11,14 @@ from typing import Annotated
 from pydantic import ValidationError
 
 from ..errors import InputError
+from ..fields import Label, Numerics, Sourced
 from ..units import MM, PERCENT
-from .digest import Label, Numerics, digest_of
-from .models import Block, Compound, DeckSettings, Friction, MeasuredBelt, Rig, Sourced, SpringSettings, Wheel
+from .block import Block
+from .compound import Compound
+from .digest import digest_of
+from .friction import Friction
+from .path import MeasuredBelt, Rig, Wheel
+from .settings import DeckSettings, SpringSettings
 
 
 @dataclass(frozen=True)

@@ -11,31 +11,13 @@ import dataclasses
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, get_type_hints
 
 from pydantic import BaseModel
 
-
-@dataclass(frozen=True)
-class Label:
-    """Marks a field that decides no result: ``key: Annotated[str, Label("a title")]``."""
-
-    why: str
-
-
-@dataclass(frozen=True)
-class Numerics:
-    """Marks settings of one solver: they decide its discretisation error, not the problem."""
-
-    solver: str
-
-
-@dataclass(frozen=True)
-class DataFile:
-    """Marks a file's name, in whose place stand the file's content and its suffix."""
+from ..fields import DataFile, Label, Numerics
 
 
 @cache

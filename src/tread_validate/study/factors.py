@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from .models import Run
+from .run import Run
 
 Level = Any  # a name, a number, "free_rolling" or None
 

@@ -9,8 +9,10 @@ from typing import Any
 from ..errors import InputError
 from ..units import MM, PERCENT, RPM
 from .case import Case
+from .document import Study
 from .factors import FACTORS
-from .models import Rig, Run, Study
+from .path import Rig
+from .run import Run
 
 LONGEST_ID = 64
 

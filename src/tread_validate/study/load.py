@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
 
 from ..errors import InputError, one_line
 from ..files import read_text
 from ..provenance import sha256_text
+from ..yaml_text import load_yaml
 from .case import Case
+from .document import Study
 from .grid import expand
-from .models import Study
 
 LARGEST_FILE = 1_000_000
 MOST_CASES = 200_000
@@ -73,44 +73,6 @@ def load_study(path: Path | str) -> LoadedStudy:
             if file is not None and not (root / file).is_file():
                 raise InputError(f"{source}: {section}.{name}.file", file, f"an existing file below {root.name}/")
     return study
-
-
-class _SafeLoader(yaml.SafeLoader):
-    """Safe YAML that refuses a key given twice."""
-
-
-def _mapping_without_duplicates(loader: _SafeLoader, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-    seen: set[Any] = set()
-    for key_node, _ in node.value:
-        key = loader.construct_object(key_node, deep=True)
-        try:
-            twice = key in seen
-            seen.add(key)
-        except TypeError:
-            raise yaml.constructor.ConstructorError(
-                None, None, "a key that is not plain text", key_node.start_mark
-            ) from None
-        if twice:
-            raise yaml.constructor.ConstructorError(None, None, f"key {key} given twice", key_node.start_mark)
-    return yaml.SafeLoader.construct_mapping(loader, node, deep)
-
-
-_SafeLoader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping_without_duplicates)
-
-
-def load_yaml(text: str, source: Path | str) -> Any:
-    """Load one YAML document safely; a syntax fault is an `InputError` with its line."""
-    if text.count("&") and "*" in text and any(token in text for token in ("<<:", ": *", "- *", ", *", "[*")):
-        raise InputError(source, "YAML aliases", "values written out")
-    try:
-        return yaml.load(text, Loader=_SafeLoader)
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        where = f"{source}:{mark.line + 1}" if mark is not None else str(source)
-        problem = getattr(error, "problem", None) or str(error)
-        raise InputError(where, problem, "well-formed YAML") from None
-    except (ValueError, RecursionError) as error:
-        raise InputError(source, f"{type(error).__name__}: {error}", "well-formed YAML") from None
 
 
 def _first_fault(error: ValidationError, source: Path, data: dict[str, Any]) -> InputError:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from .models import Study
+from .document import Study
 
 
 def study_schema() -> str:

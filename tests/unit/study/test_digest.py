@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel
 
+from tread_validate.fields import DataFile, Label, Numerics
 from tread_validate.study import Case, Study
-from tread_validate.study.digest import DataFile, Label, Numerics, label_of, marks
+from tread_validate.study.digest import label_of, marks
 from tread_validate.study.grid import expand
 
 SOURCED = {"origin": "assumed", "source": "for the test"}

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 
-from tread_validate.study.models import Block, Huemer, Run, Study
+from tread_validate.study import Block, Huemer, Study
 from tread_validate.study.reference_page import study_reference
+from tread_validate.study.run import Run
 
 
 def test_every_key_of_the_models_is_on_the_page():

@@ -19,8 +19,8 @@ import yaml
 from pydantic import Field, ValidationError
 
 from ...errors import EngineError, InputError, one_line
+from ...fields import NonNegative, Positive, Strict
 from ...files import read_text
-from ...study.models import NonNegative, Positive, Strict
 from .importer import Imported, import_history
 
 EXTRACTION_SCRIPT = Path(__file__).parent / "scripts" / "extract_odb.py"

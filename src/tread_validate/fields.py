@@ -1,0 +1,57 @@
+"""What the fields of an input file are made of: strict models, ranges with names, and marks for the digest.
+
+Keys carry their unit (``_mm``, ``_degC``). Every input names its origin, so that a number which rests on an assumed or
+synthetic input can be marked wherever it is shown.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, StringConstraints
+
+
+@dataclass(frozen=True)
+class Label:
+    """Marks a field that decides no result: ``key: Annotated[str, Label("a title")]``."""
+
+    why: str
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """Marks settings of one solver: they decide its discretisation error, not the problem."""
+
+    solver: str
+
+
+@dataclass(frozen=True)
+class DataFile:
+    """Marks a file's name, in whose place stand the file's content and its suffix."""
+
+
+Origin = Literal["published", "measured", "assumed", "synthetic"]
+Name = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]{0,23}$")]
+Line = Annotated[str, StringConstraints(min_length=1, max_length=300, pattern=r"^[^\x00-\x1f\x7f-\x9f\u2028\u2029]+$")]
+FileName = Annotated[str, StringConstraints(min_length=1, max_length=200, pattern=r"^[^\x00-\x1f\x7f]+$"), DataFile()]
+Positive = Annotated[FiniteFloat, Field(gt=0)]
+NonNegative = Annotated[FiniteFloat, Field(ge=0)]
+PoissonsRatio = Annotated[FiniteFloat, Field(gt=0, lt=0.5)]
+
+
+class Strict(BaseModel):
+    """A frozen model that refuses keys it does not know."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class Sourced(Strict):
+    """An input that says where it comes from."""
+
+    origin: Annotated[Origin, Label("how far the values can be trusted, not what they are")] = Field(
+        description="published, measured, assumed or synthetic"
+    )
+    source: Annotated[Line, Label("where the values come from")] = Field(
+        description="where the values come from, in one line"
+    )

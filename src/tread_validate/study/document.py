@@ -1,0 +1,50 @@
+"""The study file as a whole."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, model_validator
+
+from ..fields import Label, Line, Name, Numerics, Strict
+from .block import Block
+from .compound import Compound
+from .friction import Friction
+from .path import Wheel
+from .run import Run
+from .settings import DeckSettings, SpringSettings
+
+
+class Study(Strict):
+    """A whole study file."""
+
+    schema_version: Literal[1]
+    name: Annotated[Name, Label("names the study")]
+    title: Annotated[Line, Label("heads the report")]
+    notes: Annotated[tuple[Line, ...], Label("for the reader")] = ()
+    compounds: Annotated[dict[Name, Compound], Field(min_length=1)]
+    friction_laws: Annotated[dict[Name, Friction], Field(min_length=1)]
+    blocks: Annotated[dict[Name, Block], Field(min_length=1)]
+    paths: Annotated[dict[Name, Wheel], Field(min_length=1)]
+    runs: Annotated[tuple[Run, ...], Field(min_length=1)]
+    spring: Annotated[SpringSettings, Numerics("spring")] = SpringSettings()
+    deck: Annotated[DeckSettings, Numerics("deck")] = DeckSettings()
+    engine: Annotated[
+        Literal["embedded", "abaqus", "calculix"], Label("which solver makes references; each run names its own")
+    ] = "embedded"
+
+    @model_validator(mode="after")
+    def _names_exist(self) -> Self:
+        known: dict[str, dict[str, Any]] = {
+            "compound": self.compounds,
+            "friction": self.friction_laws,
+            "block": self.blocks,
+            "path": self.paths,
+        }
+        for index, run in enumerate(self.runs):
+            for key, table in known.items():
+                names = getattr(run, key)
+                for name in (names,) if isinstance(names, str) else names:
+                    if name not in table:
+                        raise ValueError(f"runs[{index}].{key}: got {name}, expected one of {', '.join(sorted(table))}")
+        return self

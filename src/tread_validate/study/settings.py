@@ -1,0 +1,36 @@
+"""Settings of the solvers: how finely they work."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, FiniteFloat
+
+from ..fields import Label, Name, NonNegative, Positive, Strict
+
+
+class SpringSettings(Strict):
+    """How finely the spring model works."""
+
+    element_length_mm: Positive = Field(0.5, description="length of one spring element in the rolling direction")
+    step_fraction: Annotated[FiniteFloat, Field(gt=0, le=1)] = Field(
+        0.5, description="time step as a fraction of the time in which the road moves one element length"
+    )
+    variants: Annotated[tuple[Name, ...], Field(min_length=1), Label("which models run; each run names its own")] = (
+        "paper",
+    )
+
+
+class DeckSettings(Strict):
+    """How the finite element decks are made."""
+
+    element_size_mm: Positive = Field(1.0, description="edge of an element in the plane of the contact face")
+    layers: Annotated[int, Field(ge=2, le=64)] = Field(8, description="elements over the block's height")
+    refinement: Annotated[FiniteFloat, Field(ge=1, le=10)] = Field(
+        1.5, description="height of the layer at the mount over that of the layer at the contact face"
+    )
+    hourglass: Literal["RELAX STIFFNESS", "STIFFNESS", "VISCOUS", "ENHANCED", "COMBINED"] = "STIFFNESS"
+    bulk_viscosity: tuple[NonNegative, NonNegative] = (0.06, 1.2)
+    history_interval_us: Positive = 20.0
+    field_frames: Annotated[int, Field(ge=1, le=1000)] = 40
+    constant_friction_variant: bool = Field(True, description="also write the deck with built-in constant friction")
