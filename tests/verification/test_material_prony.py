@@ -135,7 +135,7 @@ def test_sign_control_reaches_the_non_negative_minimum(seed: int, terms: int, no
     storage = exact.real * np.exp(noise * random.standard_normal(60))
     loss = exact.imag * np.exp(noise * random.standard_normal(60))
     fit = fit_prony(w, storage, loss, relaxation_times(BAND, terms), 22.0)
-    assert fit.objective <= fit.check_objective * 1.001 + 1e-12
+    assert fit.objective * (1 - 1e-5) <= fit.check_objective <= fit.objective * 1.001 + 1e-12
 
 
 def test_surrogate_meets_its_two_published_moduli(surrogate: FractionalZener) -> None:

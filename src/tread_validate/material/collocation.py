@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from .exact import geometric
 
 Array = NDArray[np.float64]
 
@@ -24,7 +25,7 @@ def relaxation_times(band: tuple[float, float], terms: int, low_margin: float = 
         raise InputError("relaxation times", f"{shortest:g} s to {longest:g} s", "a band that holds at least one time")
     if terms == 1:
         return np.array([np.sqrt(shortest * longest)])
-    return np.geomspace(shortest, longest, terms)
+    return geometric(shortest, longest, terms)
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ def collocate(
     """
     x = np.asarray(angular_frequency)[:, None] * times
     ones = np.ones((x.shape[0], 1))
-    storage = np.hstack([ones, x**2 / (1.0 + x**2)]) / np.asarray(storage_modulus)[:, None]
-    loss = loss_weight * np.hstack([0.0 * ones, x / (1.0 + x**2)]) / np.asarray(loss_modulus)[:, None]
+    storage = np.hstack([ones, x * x / (1.0 + x * x)]) / np.asarray(storage_modulus)[:, None]
+    loss = loss_weight * np.hstack([0.0 * ones, x / (1.0 + x * x)]) / np.asarray(loss_modulus)[:, None]
     target = np.concatenate([np.ones(x.shape[0]), np.full(x.shape[0], loss_weight)])
     return Collocation(np.vstack([storage, loss]), target)

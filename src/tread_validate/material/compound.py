@@ -12,6 +12,7 @@ from ..provenance import sha256_file
 from ..study import Compound, FractionalZener, PronyCompound, PronyFile, SweepFile
 from ..units import MPA
 from .collocation import relaxation_times
+from .exact import geometric
 from .fit import PronyFit, fit_prony
 from .material_file import read_material
 from .prony import PronySeries
@@ -52,7 +53,7 @@ def fit_surrogate(compound: FractionalZener) -> PronyFit:
     """Fit the Prony series of a fractional Zener law, sampled over the compound's band at 20 points a decade."""
     low, high = compound.fit.band_rad_s
     points = max(round(SURROGATE_POINTS_PER_DECADE * np.log10(high / low)), compound.fit.terms) + 1
-    w = np.geomspace(low, high, points)
+    w = geometric(low, high, points)
     modulus = surrogate_modulus(compound, w)
     times = relaxation_times((low, high), compound.fit.terms, compound.fit.low_margin, compound.fit.high_margin)
     return fit_prony(w, modulus.real, modulus.imag, times, compound.data_temperature_degC)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from .collocation import Collocation, collocate
+from .exact import least_squares
 from .prony import PronySeries
 from .sign_control import non_negative, sign_control
 
@@ -29,7 +30,7 @@ class PronyFit:
     objective : float
         Sum of squared weighted relative errors at the fit.
     check_objective : float
-        The same at the non-negative least-squares solution, which is the exact minimum.
+        The same where sign control came to rest, in floating point; the fit is the minimum itself.
     """
 
     series: PronySeries
@@ -54,8 +55,8 @@ class PronyFit:
 
     @property
     def excess(self) -> float:
-        """Objective over that of non-negative least squares, less 1."""
-        return self.objective / max(self.check_objective, 1e-300) - 1.0
+        """Objective of sign control over that of the minimum, less 1."""
+        return self.check_objective / max(self.objective, 1e-300) - 1.0
 
 
 def fit_prony(
@@ -68,6 +69,9 @@ def fit_prony(
     method: Method = "sign_control",
 ) -> PronyFit:
     """Fit E_inf and one modulus for each of `times` (s) to moduli in Pa at w in rad/s, all (m,).
+
+    ``sign_control`` goes on from where sign control rests to the minimum, correctly rounded on every machine;
+    ``non_negative`` is the same minimum in floating point, for searches that need it many times.
 
     Raises `InputError` where the data are fewer than the coefficients or not all > 0.
     """
@@ -82,13 +86,13 @@ def fit_prony(
             row = int(np.argmin(np.isfinite(values) & (values > 0)))
             raise InputError(f"Prony fit: {name}, point {row + 1}", values[row], "a number > 0")
     system = collocate(w, storage, loss, times, loss_weight)
-    exact = non_negative(system)
     if method == "sign_control":
         size = np.hypot(storage, loss)
-        coefficients = sign_control(system, float(size[np.argmax(w)]), float(size[np.argmin(w)]))
+        check = sign_control(system, float(size[np.argmax(w)]), float(size[np.argmin(w)]))
+        coefficients = least_squares(system.matrix, system.target, check > 0)
     else:
-        coefficients = exact
-    return _fit(coefficients, system, w, storage, loss, times, reference_temperature, exact, method)
+        check = coefficients = non_negative(system)
+    return _fit(coefficients, system, w, storage, loss, times, reference_temperature, check, method)
 
 
 def _fit(
@@ -99,7 +103,7 @@ def _fit(
     loss: Array,
     times: Array,
     reference_temperature: float,
-    exact: Array,
+    check: Array,
     method: Method,
 ) -> PronyFit:
     if not coefficients[0] > 0:
@@ -116,6 +120,6 @@ def _fit(
         storage_residual=series.storage_modulus(w) / storage - 1.0,
         loss_residual=series.loss_modulus(w) / loss - 1.0,
         objective=system.objective(coefficients),
-        check_objective=system.objective(exact),
+        check_objective=system.objective(check),
         method=method,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -49,7 +50,7 @@ class PronySeries:
     @property
     def instantaneous_modulus(self) -> float:
         """E_0 = E_inf + sum E_i, Pa."""
-        return float(self.long_term_modulus + self.moduli.sum())
+        return math.fsum([self.long_term_modulus, *self.moduli.tolist()])
 
     def relaxation_modulus(self, time: ArrayLike) -> NDArray[np.float64]:
         """Return E(t) in Pa at `time` in s (any shape, >= 0)."""

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
 from ..study import Wlf
+from .exact import power_of_ten
 
 
 def pole(wlf: Wlf) -> float:
@@ -28,12 +29,12 @@ def log_shift_factor(temperature: ArrayLike, wlf: Wlf) -> NDArray[np.float64]:
 
 def shift_factor(temperature: ArrayLike, wlf: Wlf) -> NDArray[np.float64]:
     """Return a_T = tau(T) / tau(Ts), dimensionless, > 0; `temperature` in degC, any shape."""
-    return np.asarray(10.0 ** log_shift_factor(temperature, wlf), dtype=np.float64)
+    return power_of_ten(log_shift_factor(temperature, wlf))
 
 
 def relative_shift(temperature: ArrayLike, reference: float, wlf: Wlf) -> NDArray[np.float64]:
     """Return tau(T) / tau(`reference`), dimensionless; both temperatures in degC."""
-    return np.asarray(10.0 ** (log_shift_factor(temperature, wlf) - log_shift_factor(reference, wlf)), dtype=np.float64)
+    return power_of_ten(log_shift_factor(temperature, wlf) - log_shift_factor(reference, wlf))
 
 
 def referred_to(wlf: Wlf, reference: float) -> tuple[float, float]:
