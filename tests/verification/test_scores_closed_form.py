@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tread_validate.compare.quantities import HISTORY_METRIC
+from tread_validate.compare.quantities import HISTORY_METRIC, scalars
 from tread_validate.compare.scores.ensemble import bias_and_scatter
 from tread_validate.compare.scores.iso18571 import grade, iso18571
 from tread_validate.compare.scores.metrics import relative_rms, sprague_geers
-from tread_validate.compare.scores.scalars import scalars
 from tread_validate.errors import InputError
 from tread_validate.history import History
 

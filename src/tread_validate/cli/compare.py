@@ -23,11 +23,10 @@ def command(
 
     Example: tread-validate compare reference.csv predicted.csv --uncertainty 0.02
     """
-    from dataclasses import asdict
     from json import dumps
 
-    from ..compare import METRIC_COLUMNS, compare
-    from ..compare.tables.text import table_text
+    from ..compare import MetricRow, compare
+    from ..compare.tables import rows_text
     from ..files import write_text
     from ..history import History
 
@@ -41,8 +40,8 @@ def command(
         predicted_source=b.provenance.get("producer", predicted.stem),
         uncertainty=uncertainty,
     )
-    text = dumps([asdict(row) for row in rows], indent=2) + "\n" if json else None
-    text = text or table_text(METRIC_COLUMNS, map(asdict, rows))
+    text = dumps([row.cells() for row in rows], indent=2) + "\n" if json else None
+    text = text or rows_text(MetricRow, rows)
     if output is not None:
         write_text(output, text)
     else:

@@ -18,12 +18,11 @@ def command(
 
     Example: tread-validate engines config/study.yaml -o results/tables/engines.csv
     """
-    from dataclasses import asdict
 
-    from ..compare import METRIC_COLUMNS
+    from ..compare import MetricRow
     from ..compare.engines import engine_rows, engine_runs
     from ..compare.runs import engines
-    from ..compare.tables.text import table_text
+    from ..compare.tables import rows_text
     from ..files import write_text
     from ..spring import resolve_creep
     from ..study import load_study
@@ -41,4 +40,4 @@ def command(
             pair = f"{row.predicted_source} against {row.reference_source}"
             typer.echo(f"{row.case_id}: {pair}, peak normal force {row.error:+.2%}")
     if output is not None:
-        write_text(output, table_text(METRIC_COLUMNS, map(asdict, rows)))
+        write_text(output, rows_text(MetricRow, rows))

@@ -27,12 +27,11 @@ def command(
 
     Example: tread-validate regress results/tables/peaks.csv
     """
-    from dataclasses import asdict, fields
     from json import dumps
 
-    from ..compare.regression.line import EXCLUDED_INTERFERENCES, Coefficient, regress
+    from ..compare.regression.line import EXCLUDED_INTERFERENCES, regress
     from ..compare.regression.peaks_file import read_peaks
-    from ..compare.tables.text import table_text
+    from ..compare.tables import Coefficient, rows_text
     from ..files import write_text
 
     left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)
@@ -43,8 +42,7 @@ def command(
             members, source=source, exclude=left_out, reference_temperature=zero, level=level
         ).coefficients
     ]
-    columns = tuple(item.name for item in fields(Coefficient))
-    text = dumps([asdict(row) for row in rows], indent=2) + "\n" if json else table_text(columns, map(asdict, rows))
+    text = dumps([row.cells() for row in rows], indent=2) + "\n" if json else rows_text(Coefficient, rows)
     if output is not None:
         write_text(output, text)
     else:

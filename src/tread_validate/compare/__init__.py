@@ -1,14 +1,15 @@
 """Comparison of runs with their references: rows, ensembles, regressions, claims, tables and the baseline."""
 
 from .build import build_tables, write_tables
+from .quantities import Scalars, contact_window, scalars
 from .regression.line import regress
 from .scores.comparison import compare, empty_rows
 from .scores.ensemble import bias_and_scatter
-from .scores.rows import METRIC_COLUMNS, MetricRow, verdict
-from .scores.scalars import Scalars, contact_window, scalars
+from .scores.verdict import verdict
 from .study_comparison import Comparison, compare_study
+from .tables import MetricRow
 
 __all__ = [
-    "METRIC_COLUMNS", "Comparison", "MetricRow", "Scalars", "bias_and_scatter", "build_tables", "compare",
+    "Comparison", "MetricRow", "Scalars", "bias_and_scatter", "build_tables", "compare",
     "compare_study", "contact_window", "empty_rows", "regress", "scalars", "verdict", "write_tables",
 ]  # fmt: skip

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 
 from ..files import read_text, write_text
@@ -12,10 +11,22 @@ from ..reference.published import PUBLISHED
 from ..study import load_study
 from .provenance import assumed_inputs, provenance
 from .regression.line import EXCLUDED_INTERFERENCES
-from .scores.rows import METRIC_COLUMNS
 from .study_comparison import Comparison, compare_study
-from .table_rows import COLUMNS, case_row, claim_row, ensemble_row, peak_row, residual_row
-from .tables.text import write_table
+from .table_rows import case_row, claim_row, peak_row
+from .tables import (
+    AssumedRow,
+    CaseRow,
+    ClaimRow,
+    Coefficient,
+    Difference,
+    Ensemble,
+    MetricRow,
+    PeakRow,
+    Residual,
+    Sensitivity,
+    write_package,
+    write_rows,
+)  # fmt: skip
 
 
 def build_tables(
@@ -51,27 +62,19 @@ def build_tables(
 
 
 def write_tables(found: Comparison, reference_dir: Path, out_dir: Path) -> None:
-    """Write every table of a comparison."""
+    """Write every table of a comparison, and the data package that describes them."""
     by_id = {case.case_id: case for case in found.cases}
-    write_table(out_dir / "cases.csv", COLUMNS["cases"], map(case_row, found.cases))
-    write_table(
-        out_dir / "peaks.csv",
-        COLUMNS["peaks"],
-        (peak_row(by_id[case_id], run) for (_, case_id), run in found.runs.items()),
-    )
-    write_table(out_dir / "ensemble.csv", COLUMNS["ensemble"], map(ensemble_row, found.ensembles))
-    write_table(out_dir / "regression.csv", COLUMNS["regression"], map(asdict, found.coefficients))
-    write_table(out_dir / "regression_differences.csv", COLUMNS["differences"], map(asdict, found.differences))
-    assumed = {(row.source, row.shape, row.coefficient, row.set): row.assumed for row in found.coefficients}
-    write_table(
-        out_dir / "regression_residuals.csv",
-        COLUMNS["residuals"],
-        (residual_row(row, assumed[row.source, row.shape, row.coefficient, row.set]) for row in found.residuals),
-    )
-    write_table(out_dir / "claims.csv", COLUMNS["claims"], map(claim_row, found.claims))
-    write_table(out_dir / "sensitivity.csv", COLUMNS["sensitivity"], map(asdict, found.sensitivity))
-    write_table(out_dir / "assumed.csv", COLUMNS["assumed"], assumed_inputs(found.cases))
+    write_rows(out_dir, CaseRow, map(case_row, found.cases))
+    write_rows(out_dir, PeakRow, (peak_row(by_id[case_id], run) for (_, case_id), run in found.runs.items()))
+    write_rows(out_dir, Ensemble, found.ensembles)
+    write_rows(out_dir, Coefficient, found.coefficients)
+    write_rows(out_dir, Difference, found.differences)
+    write_rows(out_dir, Residual, found.residuals)
+    write_rows(out_dir, ClaimRow, map(claim_row, found.claims))
+    write_rows(out_dir, Sensitivity, found.sensitivity)
+    write_rows(out_dir, AssumedRow, assumed_inputs(found.cases))
     write_text(out_dir / "published.csv", read_text(reference_dir / PUBLISHED))
     facts = provenance(found.study, found.cases, found.runs, found.sources, reference_dir)
     write_text(out_dir / "provenance.json", json.dumps(facts, indent=2, sort_keys=True) + "\n")
-    write_table(out_dir / "errors.csv", METRIC_COLUMNS, map(asdict, found.rows))
+    write_rows(out_dir, MetricRow, found.rows)
+    write_package(out_dir, found.study.model.name, str(facts["commit"]))

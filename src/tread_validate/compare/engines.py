@@ -9,7 +9,7 @@ from pathlib import Path
 from ..study import Case
 from .runs import Runs, fe_runs
 from .scores.comparison import compare
-from .scores.rows import MetricRow
+from .tables import MetricRow
 
 
 def engine_runs(cases: Sequence[Case], reference_dir: Path, decks_dir: Path, engines: Sequence[str]) -> Runs:

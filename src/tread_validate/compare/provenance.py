@@ -14,6 +14,7 @@ from ..study import Case, LoadedStudy
 from .regression.coefficients import SPEEDS_ASSUMED, ZERO_ASSUMED
 from .regression.line import REFERENCE_TEMPERATURE
 from .runs import Runs
+from .tables import AssumedRow
 
 PACKAGES = ("numpy", "scipy", "numba", "pandas", "pydantic", "statsmodels", "objective-rating-metrics", "frictionless")
 
@@ -38,7 +39,7 @@ def provenance(
     }
 
 
-def assumed_inputs(cases: Sequence[Case]) -> list[dict[str, Any]]:
+def assumed_inputs(cases: Sequence[Case]) -> list[AssumedRow]:
     """Return every assumed or synthetic input with the number of cases that rest on it."""
     found: dict[tuple[str, str], tuple[str, int]] = {}
     for case in cases:
@@ -51,25 +52,14 @@ def assumed_inputs(cases: Sequence[Case]) -> list[dict[str, Any]]:
             if item.origin in ("assumed", "synthetic"):
                 source, count = found.get((name, item.origin), (item.source, 0))
                 found[name, item.origin] = (source, count + 1)
-    rows = [
-        {"input": name, "origin": origin, "source": source, "cases": count}
-        for (name, origin), (source, count) in found.items()
-    ]
+    rows = [AssumedRow(name, origin, source, count) for (name, origin), (source, count) in found.items()]
     rig = sum(case.is_rig for case in cases)
     if rig:
+        zero = f"{REFERENCE_TEMPERATURE:g} degC; the paper does not print it"
+        speeds = "the paper prints the lowest, the highest and one other speed of the rig"
         rows += [
-            {
-                "input": ZERO_ASSUMED.removesuffix(" (assumed)"),
-                "origin": "assumed",
-                "source": f"{REFERENCE_TEMPERATURE:g} degC; the paper does not print it",
-                "cases": rig,
-            },
-            {
-                "input": SPEEDS_ASSUMED.removesuffix(" (assumed)"),
-                "origin": "assumed",
-                "source": "the paper prints the lowest, the highest and one other speed of the rig",
-                "cases": rig,
-            },
+            AssumedRow(ZERO_ASSUMED.removesuffix(" (assumed)"), "assumed", zero, rig),
+            AssumedRow(SPEEDS_ASSUMED.removesuffix(" (assumed)"), "assumed", speeds, rig),
         ]
     return rows
 

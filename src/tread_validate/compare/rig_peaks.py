@@ -10,15 +10,15 @@ from ..errors import InputError, one_line
 from ..history import History
 from ..reference.rig import load_rig
 from ..study import Case
-from .quantities import SCALAR
+from .quantities import SCALAR, SCALARS, scalars
 from .runs import Runs, SourceRun
 from .scores.comparison import compare, scalar_row
-from .scores.rows import CANNOT_TELL, MetricRow
-from .scores.scalars import scalars
+from .scores.verdict import CANNOT_TELL
+from .tables import MetricRow
 
 MEASURED = "rig:measured"
 NOTHING = "measured rig peaks are not published as numbers and none has been imported"
-NOT_MEASURED = ("slipping_share",)
+NOT_MEASURED = tuple(quantity.name for quantity in SCALARS if not quantity.measured)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from ..history import History
 from ..provenance import deck_digest
 from ..reference import load_fe
 from ..study import Case
-from .scores.scalars import Scalars, scalars
+from .quantities import Scalars, scalars
 
 
 @dataclass(frozen=True)

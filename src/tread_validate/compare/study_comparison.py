@@ -13,14 +13,14 @@ from ..study import Case, LoadedStudy
 from .claims.claim import Claim, Evidence
 from .claims.published import published_claims
 from .regression.coefficients import computed_regression, published_coefficients
-from .regression.differences import Difference, differences
-from .regression.line import EXCLUDED_INTERFERENCES, Coefficient, Residual
+from .regression.differences import differences
+from .regression.line import EXCLUDED_INTERFERENCES
 from .rig_peaks import MEASURED, measured_means, rig_peaks, rig_rows, rig_runs
 from .runs import Runs, engines, fe_runs, spring_runs
 from .scores.comparison import compare, empty_rows
-from .scores.ensemble import Ensemble, summarise
-from .scores.rows import MetricRow
-from .scores.sensitivity import Sensitivity, sensitivity
+from .scores.ensemble import summarise
+from .scores.sensitivity import sensitivity
+from .tables import Coefficient, Difference, Ensemble, MetricRow, Residual, Sensitivity
 
 
 @dataclass(frozen=True)

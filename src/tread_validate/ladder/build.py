@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..compare.runs import fe_runs
-from ..compare.tables.text import write_table
+from ..compare.tables import write_table
 from ..errors import InputError
 from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
@@ -116,3 +117,15 @@ def copy(workspace: Workspace, tmp_path: Path) -> Workspace:
     """A workspace that a test may change."""
     shutil.copytree(workspace.folder, tmp_path / "copy")
     return Workspace(tmp_path / "copy")
+
+
+@pytest.fixture(scope="session")
+def half_sine() -> Callable[..., History]:
+    """Half a sine of N and a whole one of T: peak 100 N and shear 30 N over 10 ms, unless told otherwise."""
+
+    def made(peak: float = 100.0, shear: float = 30.0, duration: float = 0.01) -> History:
+        t = np.linspace(0.0, duration, 801)
+        wave = t / duration
+        return History(t, peak * np.sin(np.pi * wave), shear * np.sin(2 * np.pi * wave), np.zeros_like(t))
+
+    return made

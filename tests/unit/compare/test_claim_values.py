@@ -13,8 +13,8 @@ from tread_validate.compare.claims.belt import SPRING
 from tread_validate.compare.claims.claim import Evidence
 from tread_validate.compare.claims.rig import RUNS as RIG
 from tread_validate.compare.claims.rig import net_impulse_ratio
+from tread_validate.compare.quantities import scalars
 from tread_validate.compare.runs import SourceRun
-from tread_validate.compare.scores.scalars import scalars
 from tread_validate.history import History
 from tread_validate.reference import load_published
 from tread_validate.spring import resolve_creep

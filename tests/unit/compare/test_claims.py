@@ -12,7 +12,7 @@ from tread_validate.compare.claims.rig import TABLE_1
 from tread_validate.compare.regression.coefficients import interval
 from tread_validate.compare.regression.line import Coefficient
 from tread_validate.compare.scores.ensemble import summarise
-from tread_validate.compare.scores.rows import MetricRow
+from tread_validate.compare.tables import MetricRow
 from tread_validate.reference import PublishedValue
 
 VALUE = PublishedValue(
@@ -151,4 +151,4 @@ def test_the_bias_of_a_negative_peak_is_that_of_its_magnitude() -> None:
         "all", [replace(row, reference_uncertainty=0.0), replace(row, case_id="b", reference_uncertainty=0.0)]
     )
     assert found.bias is not None
-    assert found.bias.bias == pytest.approx(1.1, rel=1e-12)
+    assert found.bias == pytest.approx(1.1, rel=1e-12)

@@ -15,16 +15,13 @@ import pytest
 import yaml
 
 from tread_validate.compare.quantities import HISTORIES, HISTORY_METRICS, SCALARS
-from tread_validate.compare.scores.rows import METRIC_COLUMNS
+from tread_validate.compare.tables import TABLES, MetricRow
 from tread_validate.history import History
 
 Workspace = Any  # of conftest.py
 CASES = 2 * 2 * 2 * 3 + 4
 ROWS_PER_CASE = len(SCALARS) + len(HISTORIES) * len(HISTORY_METRICS)
-NAMES = {
-    "cases", "peaks", "errors", "ensemble", "regression", "regression_differences", "regression_residuals", "claims",
-    "published", "assumed", "sensitivity",
-}  # fmt: skip
+NAMES = set(TABLES)
 
 
 def read(path: Path) -> list[dict[str, str]]:
@@ -36,7 +33,7 @@ def test_every_table_is_there_with_units_and_marks(workspace: Workspace) -> None
     """Eleven CSV tables and the provenance; errors has the declared columns; what rests on a stand-in says so."""
     assert {path.stem for path in workspace.tables.glob("*.csv")} == NAMES
     rows = read(workspace.tables / "errors.csv")
-    assert tuple(rows[0]) == METRIC_COLUMNS
+    assert tuple(rows[0]) == MetricRow.header()
     assert all("compound surrogate (synthetic)" in row["assumed"] for row in rows)
     assert all(row["unit"] for row in rows)
 

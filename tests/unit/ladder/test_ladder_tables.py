@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tread_validate.compare.quantities import scalars
 from tread_validate.compare.runs import SourceRun
-from tread_validate.compare.scores.scalars import scalars
 from tread_validate.ladder import compatibility, effects, pareto, published, sensitivity
 from tread_validate.ladder.rate_response import rig_table
 from tread_validate.material import prony_series

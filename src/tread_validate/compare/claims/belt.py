@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 
 from ...study import Case
+from ..quantities import contact_window
 from ..runs import SourceRun
 from ..scores.align import align
 from ..scores.iso18571 import SAMPLES, iso18571
 from ..scores.metrics import relative_rms
-from ..scores.scalars import contact_window
 from .claim import Compute, Computed, Evidence, nothing
 from .rig import net_impulse_ratio
 from .study import mean_modulus

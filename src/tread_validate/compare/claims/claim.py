@@ -8,14 +8,9 @@ from dataclasses import dataclass
 from ...reference import PublishedValue
 from ...study import Case, LoadedStudy
 from ..regression.coefficients import interval
-from ..regression.line import Coefficient
 from ..runs import Runs, SourceRun
-from ..scores.rows import AGREES, CANNOT_TELL, DISAGREES, Verdict
-
-CLAIM_COLUMNS = (
-    "claim_id", "kind", "section", "statement", "quantity", "unit", "published", "published_low", "published_high",
-    "spread_kind", "source", "case_ids", "computed", "error", "error_type", "verdict", "status", "note", "assumed",
-)  # fmt: skip
+from ..scores.verdict import AGREES, CANNOT_TELL, DISAGREES
+from ..tables import Coefficient, Verdict
 
 
 @dataclass(frozen=True)

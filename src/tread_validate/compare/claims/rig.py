@@ -7,11 +7,12 @@ from collections.abc import Callable
 import numpy as np
 
 from ...study import Case
+from ..quantities import contact_window
 from ..regression.differences import differences
 from ..regression.line import EXCLUDED_INTERFERENCES
 from ..runs import SourceRun
-from ..scores.rows import AGREES, CANNOT_TELL, DISAGREES, Verdict
-from ..scores.scalars import contact_window
+from ..scores.verdict import AGREES, CANNOT_TELL, DISAGREES
+from ..tables import Verdict
 from .claim import Compute, Computed, Evidence, nothing
 
 SHAPES = ("rectangle", "parallelogram")

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from ...reference import PublishedValue
 from ...study import Case
 from ..runs import Runs
-from .line import EXCLUDED_INTERFERENCES, LEVEL, Coefficient, Peak, Regression, mean_interval, regress
+from ..tables import Coefficient
+from .line import EXCLUDED_INTERFERENCES, LEVEL, Peak, Regression, mean_interval, regress
 
 PRINTED_SPEEDS = (150.0, 300.0, 600.0)  # rpm; the paper's other levels are not printed
 ZERO_ASSUMED = "reference temperature of a_theta (assumed)"

@@ -4,38 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy import stats
 
-from .line import LEVEL, Coefficient
-
-
-@dataclass(frozen=True)
-class Difference:
-    """Coefficient of source b less that of source a, with the test that judges it.
-
-    Attributes
-    ----------
-    significant : bool or None
-        Whether the confidence interval leaves out zero; None where there is no test.
-    """
-
-    shape: str
-    coefficient: str
-    source_a: str
-    source_b: str
-    difference: float | None
-    unit: str
-    ci_low: float | None
-    ci_high: float | None
-    p_value: float | None
-    significant: bool | None
-    test: str
-    status: str
-    note: str
-    assumed: str
+from ..tables import Coefficient, Difference
+from .line import LEVEL
 
 
 def differences(rows: Sequence[Coefficient], level: float = LEVEL) -> tuple[Difference, ...]:

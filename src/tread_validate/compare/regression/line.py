@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from ...errors import InputError
+from ..tables import Coefficient, Residual
 
 REFERENCE_TEMPERATURE = 22.0  # degC, of a_theta; not printed in the paper: assumed
 EXCLUDED_INTERFERENCES = (0.3,)  # mm: left out of the paper's regressions
@@ -57,44 +58,6 @@ class Fit:
     low: float
     high: float
     fitted: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Coefficient:
-    """A row of Table 1 in long form."""
-
-    source: str
-    shape: str
-    coefficient: str
-    set: str
-    value: float | None
-    unit: str
-    spread: float | None
-    spread_kind: str
-    low: float | None
-    high: float | None
-    ci_low: float | None
-    ci_high: float | None
-    ci_level: float
-    n: int
-    status: str
-    note: str = ""
-    assumed: str = ""
-
-
-@dataclass(frozen=True)
-class Residual:
-    """Distance of one run from the line of its set."""
-
-    source: str
-    shape: str
-    coefficient: str
-    set: str
-    case_id: str
-    x: float
-    x_unit: str
-    force: float
-    fitted: float
 
 
 @dataclass(frozen=True)
@@ -224,12 +187,19 @@ def _one_set(
         "current", note, assumed,
     )  # fmt: skip
     left = [
-        Residual(source, shape, name, label, peak.case_id, position, x_unit, float(value), float(line))
+        _residual((source, shape, name, label, peak.case_id), position, x_unit, float(value), float(line), assumed)
         for peak, position, value, line in zip(
             members, [p.speed if name == "a_v" else p.temperature for p in members], force, fit.fitted, strict=True
         )
     ]
     return row, left
+
+
+def _residual(
+    key: tuple[str, str, str, str, str], x: float, x_unit: str, force: float, fitted: float, assumed: str
+) -> Residual:
+    left = force - fitted
+    return Residual(*key, x, x_unit, force, fitted, left, 100.0 * left / fitted if fitted else None, assumed)
 
 
 def _mean(source: str, shape: str, name: str, rows: Sequence[Coefficient], level: float, assumed: str) -> Coefficient:

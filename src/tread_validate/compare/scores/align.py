@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from ...history import History
-from .scalars import contact_window
+from ..quantities import contact_window
 
 SAMPLES = 2001
 

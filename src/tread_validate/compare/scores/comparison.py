@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...history import History
-from ..quantities import HISTORIES, HISTORY_METRICS, SCALARS, SMALL_SHARE, ErrorType, Quantity, Scale
+from ..quantities import HISTORIES, HISTORY_METRICS, SCALARS, SMALL_SHARE, ErrorType, Quantity, Scalars, Scale, scalars
+from ..tables import MetricRow
 from .align import align, window
 from .history_rows import Names, Uncertainty, history_rows, metric_unit
 from .iso18571 import SAMPLES as ISO_SAMPLES
-from .rows import CANNOT_TELL, MetricRow, verdict
-from .scalars import Scalars, scalars
+from .verdict import CANNOT_TELL, verdict
 
 
 def compare(
@@ -127,24 +127,17 @@ def _scalar_row(quantity: Quantity, a: Scalars, b: Scalars, names: Names, uncert
 def _spread(quantity: Quantity, reference: Scalars, uncertainty: Uncertainty) -> float | None:
     """Return what the uncertainty means for one scalar, in its unit.
 
-    One number is a relative error of all forces: it moves forces and impulses, leaves times and signs alone, and says
-    nothing about how much of the time the block slips.
+    One number is a relative error of all forces: the catalogue says what each quantity makes of it.
     """
     if uncertainty is None:
         return None
-    if quantity.name == "late_sign_change":
-        return 0.0
-    value = reference.as_dict()[quantity.name]
-    if isinstance(uncertainty, Mapping):
-        known = uncertainty.get(quantity.name)
-        return None if known is None else known * abs(value)
-    if quantity.unit == "s":
-        return 0.0
-    if quantity.name == "slipping_share":
-        return None
-    if quantity.name == "net_tangential_impulse":
-        return uncertainty * reference.tangential_to_normal_ratio * reference.normal_impulse
-    return uncertainty * abs(value)
+    scales = reference.as_dict()
+    if not isinstance(uncertainty, Mapping):
+        return quantity.spread(uncertainty, quantity.name, scales)
+    known = uncertainty.get(quantity.name)
+    if known is None:
+        return 0.0 if quantity.flag else None
+    return known * abs(scales[quantity.name])
 
 
 def _scale(name: Scale, scales: Mapping[str, float]) -> float:

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from ...errors import InputError
 from ...history import History
-from .scalars import scalars
+from ..quantities import SCALARS, scalars
 
 LEAST_ORDER, LARGEST_ORDER = 0.5, 4.0
 
@@ -70,10 +70,12 @@ def richardson(sizes: Sequence[float], values: Sequence[float]) -> Convergence:
 
 
 def convergence(sizes: Sequence[float], histories: Sequence[History]) -> Mapping[str, Convergence]:
-    """Extrapolate every scalar of a pass and return them by name; ``late_sign_change`` is yes or no and left out."""
+    """Extrapolate every scalar of a pass and return them by name; those that are yes or no are left out."""
     tables = [scalars(history).as_dict() for history in histories]
     return {
-        name: richardson(sizes, [table[name] for table in tables]) for name in tables[0] if name != "late_sign_change"
+        quantity.name: richardson(sizes, [table[quantity.name] for table in tables])
+        for quantity in SCALARS
+        if not quantity.flag
     }
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError
-from .rows import MetricRow
+from ..tables import Ensemble, MetricRow
 
 NEGATIVE = ("peak_negative_tangential_force",)  # bias is that of the magnitude
 
@@ -30,29 +30,6 @@ class BiasAndScatter:
     model_scatter: float
     total_scatter: float
     reference_scatter: float
-
-
-@dataclass(frozen=True)
-class Ensemble:
-    """Summary of the rows of one quantity and metric over a group of cases."""
-
-    group: str
-    quantity: str
-    metric: str
-    reference_source: str
-    predicted_source: str
-    unit: str
-    error_type: str
-    cases: int
-    compared: int
-    passed: int
-    mean_abs_error: float | None
-    largest_abs_error: float | None
-    largest_case_id: str
-    bias: BiasAndScatter | None
-    status: str
-    note: str
-    assumed: str
 
 
 def bias_and_scatter(
@@ -126,7 +103,10 @@ def summarise(group: str, rows: Sequence[MetricRow]) -> Ensemble:
         mean_abs_error=float(np.mean(errors)) if errors else None,
         largest_abs_error=max(errors) if errors else None,
         largest_case_id=worst.case_id if worst is not None else "",
-        bias=bias,
+        bias=None if bias is None else bias.bias,
+        model_scatter=None if bias is None else bias.model_scatter,
+        total_scatter=None if bias is None else bias.total_scatter,
+        reference_scatter=None if bias is None else bias.reference_scatter,
         status=status,
         note="; ".join(notes),
         assumed="; ".join(sorted({part for row in rows for part in row.assumed.split("; ") if part})),

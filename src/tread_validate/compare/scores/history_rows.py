@@ -9,10 +9,11 @@ import numpy as np
 
 from ...errors import InputError
 from ..quantities import FORCE_TOLERANCE, HISTORY_METRICS, SMALL_SHARE, ErrorType, HistoryMetric
+from ..tables import MetricRow
 from .align import Pair
 from .iso18571 import IsoRating, grade, iso18571
 from .metrics import sprague_geers
-from .rows import CANNOT_TELL, MetricRow, verdict
+from .verdict import CANNOT_TELL, verdict
 
 Uncertainty = float | Mapping[str, float] | None
 Names = tuple[str, str, str]

@@ -3,32 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ...history import History
-from ..quantities import HISTORIES
+from ..quantities import HISTORIES, contact_window
+from ..tables import Sensitivity
 from .align import SAMPLES, Pair, align, window
 from .iso18571 import SAMPLES as ISO_SAMPLES
 from .iso18571 import iso18571
 from .metrics import relative_rms, sprague_geers
-from .scalars import contact_window
 
 FINE = (501, 8001)
 ISO_LENGTHS = (101, 201, 801)
 WIDER = 0.10
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """One score under one variation of how it is taken."""
-
-    metric: str
-    quantity: str
-    case_id: str
-    variation: str
-    samples: int
-    value: float
-    change: float
 
 
 def sensitivity(reference: History, predicted: History, case_id: str) -> tuple[Sensitivity, ...]:

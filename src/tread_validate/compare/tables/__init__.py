@@ -1,1 +1,20 @@
-"""The tables of the results: what they hold, written and read in one place."""
+"""The tables of the results: what they hold, declared once, and how they are written and read.
+
+A column is a field of a row class. The writer, the reader, the report, the baseline and the data package take it from
+there.
+"""
+
+from .catalogue import TABLES
+from .errors import Ensemble, MetricRow, Sensitivity, Verdict
+from .package import write_package
+from .row import Column, Row, column
+from .runs import AssumedRow, CaseRow, PeakRow
+from .slopes import Coefficient, Difference, Residual
+from .statements import ClaimRow, PublishedRow
+from .text import cell, read_rows, rows_text, table_text, write_rows, write_table
+
+__all__ = [
+    "TABLES", "AssumedRow", "CaseRow", "ClaimRow", "Coefficient", "Column", "Difference", "Ensemble", "MetricRow",
+    "PeakRow", "PublishedRow", "Residual", "Row", "Sensitivity", "Verdict", "cell", "column", "read_rows", "rows_text",
+    "table_text", "write_package", "write_rows", "write_table",
+]  # fmt: skip

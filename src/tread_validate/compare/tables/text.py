@@ -1,4 +1,4 @@
-"""Tables as text: the same bytes for the same numbers, on one core or two."""
+"""Tables as text: the same bytes for the same numbers, on one core or two; and text as rows again."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from ...files import write_text
+from ...errors import InputError, one_line
+from ...files import read_text, write_text
+from .row import Row
 
 DIGITS = 7
+AnyRow = TypeVar("AnyRow", bound=Row)
 
 
 def cell(value: Any) -> str:
@@ -43,3 +46,41 @@ def table_text(columns: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> str
 def write_table(path: Path, columns: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> None:
     """Write a CSV table, atomically."""
     write_text(path, table_text(columns, rows))
+
+
+def rows_text(kind: type[AnyRow], rows: Iterable[AnyRow]) -> str:
+    """Return a table of rows of one class as CSV."""
+    return table_text(kind.header(), (row.cells() for row in rows))
+
+
+def write_rows(folder: Path, kind: type[AnyRow], rows: Iterable[AnyRow]) -> None:
+    """Write ``<table>.csv`` into a folder, atomically."""
+    write_text(folder / f"{kind.table}.csv", rows_text(kind, rows))
+
+
+def read_rows(path: Path | str, kind: type[AnyRow]) -> tuple[AnyRow, ...]:
+    """Read a table back.
+
+    Raises `InputError`, with file and line, for a missing or another column, a row of another length, a cell that is
+    not of its column's kind, and two rows with one key.
+    """
+    reader = csv.reader(io.StringIO(read_text(path)))
+    header = tuple(next(reader, ()))
+    expected = kind.header()
+    if header != expected:
+        missing = [name for name in expected if name not in header]
+        strange = [name for name in header if name not in expected]
+        found = f"no column {missing[0]}" if missing else f"column {one_line(strange[0], 60)}" if strange else "order"
+        raise InputError(f"{path}:1", found, "columns " + ", ".join(expected))
+    rows: list[AnyRow] = []
+    seen: set[tuple[str, ...]] = set()
+    for line, cells in enumerate(reader, start=2):
+        where = f"{path}:{line}"
+        if len(cells) != len(header):
+            raise InputError(where, f"{len(cells)} cells", f"{len(header)}, as in the header")
+        row = kind.read(dict(zip(header, cells, strict=True)), where)
+        if row.identity() in seen:
+            raise InputError(where, f"{' '.join(row.identity())} again", "each row once")
+        seen.add(row.identity())
+        rows.append(row)
+    return tuple(rows)

@@ -1,0 +1,26 @@
+"""Every table of the results, in the order in which one follows from another."""
+
+from __future__ import annotations
+
+from .errors import Ensemble, MetricRow, Sensitivity
+from .row import Row
+from .runs import AssumedRow, CaseRow, PeakRow
+from .slopes import Coefficient, Difference, Residual
+from .statements import ClaimRow, PublishedRow
+
+TABLES: dict[str, type[Row]] = {
+    kind.table: kind
+    for kind in (
+        CaseRow,
+        AssumedRow,
+        PublishedRow,
+        PeakRow,
+        MetricRow,
+        Coefficient,
+        Ensemble,
+        Sensitivity,
+        Residual,
+        Difference,
+        ClaimRow,
+    )
+}

@@ -1,0 +1,104 @@
+"""Rows of the errors: one comparison each, their statistics over many cases, and what the scores hang on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Literal
+
+from ..quantities import ErrorType
+from .row import Row, column, table_row
+from .runs import ASSUMED, NOTE, SOURCE, STATUS
+
+Verdict = Literal["agrees", "disagrees", "cannot tell"]
+METRIC = "`scalar`, or the score of two histories"
+ERROR_TYPE = "`relative`: over the reference; `absolute`: in `unit`; `score`: score less 1"
+
+
+@table_row
+class MetricRow(Row):
+    """One declared comparison.
+
+    `verdict` is ``agrees`` where the error passes whatever the reference's uncertainty makes of it, ``disagrees`` where
+    it fails whatever, and ``cannot tell`` in between, or where the uncertainty is not known, or without an error.
+    """
+
+    table = "errors"
+    title = "Every run against its reference, a row for every scalar and every score"
+    key = ("predicted_source", "reference_source", "case_id", "quantity", "metric")
+
+    case_id: str = column("name of the case")
+    quantity: str = column("scalar, or force whose histories are compared")
+    metric: str = column(METRIC)
+    reference_source: str = column(SOURCE)
+    predicted_source: str = column(SOURCE)
+    reference: float | None = column(
+        "the reference's value in `unit`; of histories: largest |reference| (relative_rms), root mean square "
+        "(sprague_geers_*), 1 (iso18571_*)"
+    )
+    predicted: float | None = column(
+        "the prediction's value in `unit`; of histories: RMS error (relative_rms), root mean square (sprague_geers_*), "
+        "score (iso18571_*)"
+    )
+    unit: str = column("unit of reference and predicted")
+    error: float | None = column("signed error of the prediction, as `error_type` says")
+    error_type: ErrorType = column(ERROR_TYPE)
+    reference_uncertainty: float | None = column(
+        "what the reference's uncertainty makes of the error, in the error's unit; empty where it is not known"
+    )
+    tolerance: float | None = column("largest |error| that passes, in the error's unit")
+    passed: bool | None = column("whether |error| <= tolerance; empty without an error")
+    verdict: Verdict = column("`agrees`, `disagrees` or `cannot tell`")
+    status: str = column(STATUS, default="current")
+    note: str = column(NOTE, default="")
+    assumed: str = column(ASSUMED, default="")
+
+    def marked(self, assumed: str) -> MetricRow:
+        """Return the row with the assumed and synthetic inputs it rests on."""
+        return replace(self, assumed=assumed)
+
+
+@table_row
+class Ensemble(Row):
+    """Summary of the rows of one quantity and metric over a group of cases."""
+
+    table = "ensemble"
+    title = "Statistics of the errors over groups of cases"
+    key = ("group", "predicted_source", "reference_source", "quantity", "metric")
+
+    group: str = column("`all`, `rig`, `belt`, `published` (the rig without 0.3 mm), or a shape of block on the rig")
+    quantity: str = column("scalar, or force whose histories are compared")
+    metric: str = column(METRIC)
+    reference_source: str = column(SOURCE)
+    predicted_source: str = column(SOURCE)
+    unit: str = column("unit of the errors; 1 for a relative one or a score")
+    error_type: ErrorType = column(ERROR_TYPE)
+    cases: int = column("cases of the group")
+    compared: int = column("cases with an error")
+    passed: int = column("cases whose error is within its tolerance")
+    mean_abs_error: float | None = column("mean of |error|")
+    largest_abs_error: float | None = column("largest |error|")
+    largest_case_id: str = column("the case that has it")
+    bias: float | None = column("factor by which the model exceeds the reference on average; 1 is none")
+    model_scatter: float | None = column("sigma_M, the model's own relative scatter")
+    total_scatter: float | None = column("standard deviation of ln(predicted/reference)")
+    reference_scatter: float | None = column("sigma_E, the reference's relative uncertainty")
+    status: str = column(STATUS)
+    note: str = column(NOTE)
+    assumed: str = column(ASSUMED)
+
+
+@table_row
+class Sensitivity(Row):
+    """One score under one variation of how it is taken."""
+
+    table = "sensitivity"
+    title = "How much each score hangs on window and sampling"
+    key = ("metric", "quantity", "case_id", "variation")
+
+    metric: str = column(METRIC)
+    quantity: str = column("force whose histories are compared")
+    case_id: str = column("name of the case")
+    variation: str = column("what was varied")
+    samples: int = column("samples of both histories")
+    value: float = column("the score")
+    change: float = column("the score less that reported")

@@ -1,0 +1,88 @@
+"""Rows of the runs: what was asked, what came out, and what it rests on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..quantities import SCALARS
+from .row import Column, Row, column, spread, table_row
+
+ASSUMED = "assumed and synthetic inputs that the row rests on, `; ` between them"
+SOURCE = "who made the run: `spring:<variant>`, `fe:<engine>`, `rig:measured`, `<kind>:published`"
+STATUS = "`current`, `missing`, `stale`, `corrupt`, `no_contact`, `undefined` or `incomplete`"
+NOTE = "why there is no value, or a word on it"
+
+
+@table_row
+class CaseRow(Row):
+    """The conditions of one case."""
+
+    table = "cases"
+    title = "The cases of the study and their conditions"
+    key = ("case_id",)
+
+    case_id: str = column("name of the case")
+    run: str = column("run of the study that it belongs to")
+    path: str = column("path of the study that the block takes")
+    block: str = column("block of the study")
+    compound: str = column("compound of the study")
+    friction: str = column("friction law of the study")
+    temperature_degC: float = column("temperature of the rubber", "degC")
+    interference_mm: float = column("largest compression of the block", "mm")
+    speed_m_s: float = column("speed of the surface", "m/s")
+    speed_rpm: float | None = column("speed of the small wheel, on a rig", "1/min")
+    creep_percent: float | None = column("creep ratio: road faster than block", "%")
+    free_rolling: bool = column("whether the creep ratio is that of no net tangential impulse")
+    measured_profile: bool = column("whether the path is a measured trace")
+    shape: str = column("plan of the block: rectangle or parallelogram")
+    assumed: str = column(ASSUMED)
+    case_digest: str = column("SHA-256 of all inputs of the case")
+
+
+@table_row
+class PeakRow(Row):
+    """The scalars of one run; empty where it has none."""
+
+    table = "peaks"
+    title = "Scalars of every run of every source"
+    key = ("source", "case_id")
+
+    source: str = column(SOURCE)
+    case_id: str = column("name of the case")
+    rig: bool = column("whether the case is one of the two-wheel rig")
+    shape: str = column("plan of the block")
+    path: str = column("path of the study")
+    block: str = column("block of the study")
+    temperature_degC: float = column("temperature of the rubber", "degC")
+    interference_mm: float = column("largest compression of the block", "mm")
+    speed_m_s: float = column("speed of the surface", "m/s")
+    values: Mapping[str, float | None] = spread(
+        {
+            item.name: Column(item.column, "number", "" if item.unit == "1" else item.unit, item.label, True)
+            for item in SCALARS
+        }
+    )
+    peak_pressure_MPa: float | None = column("largest normal force over the area of the face", "MPa")
+    status: str = column(STATUS)
+    note: str = column(NOTE)
+    history_sha256: str = column("SHA-256 of the history file; empty where there is none")
+    assumed: str = column(ASSUMED)
+
+    @property
+    def peak_normal_force_N(self) -> float | None:
+        """The largest normal force, N."""
+        return self.values.get("peak_normal_force")
+
+
+@table_row
+class AssumedRow(Row):
+    """An input that is assumed or synthetic."""
+
+    table = "assumed"
+    title = "Assumed and synthetic inputs, and how many cases rest on each"
+    key = ("input", "origin")
+
+    input: str = column("the input")
+    origin: str = column("`assumed` or `synthetic`")
+    source: str = column("what stands in, and why")
+    cases: int = column("cases that rest on it")
