@@ -11,8 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tread_validate.compare.quantities import SCALARS, Noise, scalars
-from tread_validate.compare.tables import TABLES, MetricRow, PeakRow, Sensitivity, cell, read_rows, rows_text
+from tread_validate.compare.tables import TABLES, CaseRow, MetricRow, PeakRow, Sensitivity, cell, read_rows, rows_text
 from tread_validate.errors import InputError
+from tread_validate.study.factors import FACTORS
 
 
 @pytest.mark.parametrize("name", TABLES)
@@ -61,6 +62,11 @@ def test_every_scalar_has_a_column_and_a_row(workspace: Any) -> None:
     peaks = read_rows(workspace.tables / "peaks.csv", PeakRow)
     assert set(peaks[0].values) == {quantity.name for quantity in SCALARS}
     assert peaks[0].peak_normal_force_N == peaks[0].values["peak_normal_force"]
+
+
+def test_every_factor_of_a_study_has_a_column() -> None:
+    """A factor that a study may vary stands in the table of the cases."""
+    assert {factor.column for factor in FACTORS} <= set(CaseRow.header())
 
 
 @given(st.floats(-1e12, 1e12))

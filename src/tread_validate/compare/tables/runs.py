@@ -27,6 +27,7 @@ class CaseRow(Row):
     block: str = column("block of the study")
     compound: str = column("compound of the study")
     friction: str = column("friction law of the study")
+    poissons_ratio: float = column("Poisson's ratio of the rubber")
     temperature_degC: float = column("temperature of the rubber", "degC")
     interference_mm: float = column("largest compression of the block", "mm")
     speed_m_s: float = column("speed of the surface", "m/s")
