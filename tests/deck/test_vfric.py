@@ -13,7 +13,16 @@ from hypothesis import strategies as st
 
 from tread_validate import deck
 from tread_validate.deck.vfric import properties, source
-from tread_validate.friction import FrictionLaw, coulomb_law, huemer_law, law, table_law
+from tread_validate.friction import (
+    FORMS,
+    FrictionLaw,
+    coulomb_law,
+    huemer_law,
+    kinetic_kernel,
+    law,
+    power_law,
+    table_law,
+)
 from tread_validate.inp import read_deck
 from tread_validate.study import Case
 
@@ -29,7 +38,8 @@ LAWS = {
     "coulomb": coulomb_law(0.73, 0.9),
     "huemer": huemer_law(0.8212, 0.0, 0.9, 10.0, 3.729, -4.495, 1.785),
     "table": TABLE,
-}
+    "power": power_law(0.8, 0.1, -0.15, 1e-3, 0.9),
+}  # a form that is missing here fails the first test
 Load = Callable[[str], Any]
 
 
@@ -51,7 +61,17 @@ def _slide(routine: Any, friction: FrictionLaw, pressure: Any, speed: Any, stick
     return -force[0] / normal
 
 
-@pytest.mark.parametrize("kind", ["coulomb", "huemer", "table"])
+def test_compiled_choice_among_the_laws_knows_every_form() -> None:
+    """A law reached by its code is the law itself, to the last bit; an unknown code is no number."""
+    assert set(LAWS) == set(FORMS)
+    assert len({form.code for form in FORMS.values()}) == len(FORMS)
+    for friction in LAWS.values():
+        for pressure, speed in ((4e5, 0.3), (1.0, 0.0), (1e7, 50.0)):
+            assert kinetic_kernel(*friction.kernel_arguments, pressure, speed) == friction.kinetic(pressure, speed)
+    assert np.isnan(kinetic_kernel(99, *LAWS["table"].kernel_arguments[1:], 4e5, 0.3))
+
+
+@pytest.mark.parametrize("kind", LAWS)
 def test_fortran_law_is_the_python_law_on_a_grid_of_pressure_and_slip_speed(kind: str, vfric: Load) -> None:
     """Same formula in double precision: 1e-12, some 5000 units of rounding, leaves room for powers and units alone.
 
@@ -86,7 +106,7 @@ def test_fortran_huemer_law_is_the_python_law_for_any_constants(
     np.testing.assert_allclose(_slide(vfric("huemer"), friction, pressure, speed), expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("kind", ["coulomb", "huemer", "table"])
+@pytest.mark.parametrize("kind", LAWS)
 def test_a_point_sticks_up_to_the_static_limit_and_slides_beyond_it(kind: str, vfric: Load) -> None:
     """Stick force mu_s N (1 -+ 1e-9): at the lower the whole stick force is returned exactly, at the upper mu_k N."""
     friction = LAWS[kind]
@@ -126,7 +146,7 @@ def test_force_opposes_the_slip_whatever_its_direction(vfric: Load) -> None:
     np.testing.assert_array_equal(force[1], 0.0)
 
 
-@pytest.mark.parametrize("kind", ["coulomb", "huemer", "table"])
+@pytest.mark.parametrize("kind", LAWS)
 @pytest.mark.parametrize("directions", [1, 2])
 def test_guards_keep_the_force_finite(kind: str, directions: int, vfric: Load) -> None:
     """No normal force: no friction. No time increment or no slip: the law at its slowest. No area: at its lightest."""
@@ -164,7 +184,7 @@ def test_each_contact_point_takes_the_area_of_its_own_slave_node(vfric: Load) ->
     np.testing.assert_allclose(force, -expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("kind", ["coulomb", "huemer", "table"])
+@pytest.mark.parametrize("kind", LAWS)
 def test_source_is_fixed_form_of_72_columns_in_plain_ascii(kind: str) -> None:
     lines = source(kind).splitlines()
     assert max(map(len, lines)) <= 72

@@ -95,7 +95,8 @@ def _friction(case: Case) -> doc.Friction:
         kind=friction.kind,
         static_coefficient=friction.static_coefficient,
         constants={
-            name: doc.Constant(value=value, unit=UNITS.get(name, "1")) for name, value in friction.constants.items()
+            name: doc.Constant(value=value, unit=friction.form.units[name])
+            for name, value in friction.constants.items()
         },
         table=doc.FrictionTable(
             pressure_Pa=_numbers(pressures),
@@ -103,16 +104,6 @@ def _friction(case: Case) -> doc.Friction:
             coefficient=tuple(_numbers(row) for row in table),
         ),
     )
-
-
-# of the constants that are not plain numbers; alpha, a, b and c of Huemer's form take p in MPa and v in m/s
-UNITS = {
-    "least_pressure": "Pa",
-    "least_slip_speed": "m/s",
-    "alpha": "MPa^(1-n)",
-    "b": "(m/s)^(1/m)",
-    "c": "(m/s)^(2/m)",
-}
 
 
 def _block(case: Case, path: BlockPath) -> doc.Block:

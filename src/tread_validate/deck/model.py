@@ -35,7 +35,7 @@ class Deck:
     input_text : str
         The ABAQUS/Explicit deck with the user friction routine.
     constant_friction_text : str or None
-        The same deck with built-in Coulomb friction at the law's static coefficient; None where not asked for.
+        The same deck with built-in Coulomb friction (the law's `constant_coefficient`); None where not asked for.
     user_text : str
         Fortran source of VFRIC.
     points : (n, 3) array, mm
@@ -84,7 +84,7 @@ def build(case: Case) -> Deck:
     ]
     constant = None
     if case.deck.constant_friction_variant:
-        constant = _join([*before, *sections.constant_friction(friction.static_coefficient), *after])
+        constant = _join([*before, *sections.constant_friction(friction.constant_coefficient), *after])
     return Deck(
         case_id=case.case_id,
         input_text=_join([*before, *sections.user_friction(user.properties), *after]),

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from ..friction import FrictionLaw
-from ..units import DECK_LENGTH, DECK_STRESS
+from ..friction import FORMS, FrictionLaw
 
 
 @dataclass(frozen=True)
@@ -37,23 +36,12 @@ def user_friction(law: FrictionLaw) -> UserFriction:
 
 def properties(law: FrictionLaw) -> tuple[float, ...]:
     """Return the properties of VFRIC for `law`: the static coefficient first, then the law's own."""
-    constants = law.constants
-    if law.kind == "coulomb":
-        own = [constants["kinetic_coefficient"]]
-    elif law.kind == "huemer":
-        own = [constants[name] for name in ("alpha", "beta", "n", "m", "a", "b", "c")]
-        own += [constants["least_pressure"] * DECK_STRESS, constants["least_slip_speed"] * DECK_LENGTH]
-    else:
-        own = [float(law.pressures.size), float(law.slip_speeds.size)]
-        own += [float(value) * DECK_STRESS for value in law.pressures]
-        own += [float(value) * DECK_LENGTH for value in law.slip_speeds]
-        own += [float(value) for value in law.table.ravel()]
-    return (law.static_coefficient, *own)
+    return law.deck_properties
 
 
 @cache
 def source(kind: str) -> str:
-    """Return the Fortran text of VFRIC for a kind of law (``coulomb``, ``huemer``, ``table``)."""
+    """Return the Fortran text of VFRIC for a form of law, by its name."""
     folder = files("tread_validate.deck") / "templates"
     head = (
         "c     VFRIC: friction between tread block and road.\n"
@@ -66,5 +54,4 @@ def source(kind: str) -> str:
         "c\n"
     )
     frame = (folder / "vfric.f").read_text(encoding="utf-8")
-    law = (folder / f"law_{kind}.f").read_text(encoding="utf-8")
-    return head + frame + law
+    return head + frame + FORMS[kind].fortran

@@ -17,12 +17,13 @@ from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
 from ..errors import InputError
-from .laws import FrictionLaw, huemer_law
+from .law import FrictionLaw
+from .law_file import FITTED as CONSTANTS
+from .laws.huemer import huemer_law
 from .table_file import FrictionData
 
 Array = NDArray[np.float64]
 
-CONSTANTS = ("alpha", "beta", "n", "m", "a", "b", "c")
 # search variables: ln alpha, beta, n, ln m, u0, ln(c/d)
 SEARCH = ("alpha", "beta", "n", "m", "u0", "c/d")
 HOLDABLE = ("beta", "n", "m")

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import Field, ValidationError
 
 from ..errors import InputError, one_line
 from ..files import read_text
-from ..study import Huemer
 from ..units import KPA, MM
 from ..yaml_text import load_yaml
-from .fit import CONSTANTS, FrictionFit
-from .laws import FrictionLaw, huemer_law
+from .laws.huemer import Huemer
+
+if TYPE_CHECKING:
+    from .fit import FrictionFit
+
+FITTED = ("alpha", "beta", "n", "m", "a", "b", "c")
 
 
 class FrictionFile(Huemer):
@@ -45,24 +48,6 @@ def read_friction(path: Path | str) -> FrictionFile:
         raise InputError(f"{path}: {key}", one_line(repr(fault.get("input")), 80), one_line(fault["msg"])) from None
 
 
-def read_huemer(path: Path, static_coefficient: float) -> FrictionLaw:
-    """Return the law of a friction file with the study's static coefficient."""
-    read = read_friction(path)
-    return huemer_law(
-        read.alpha,
-        read.beta,
-        read.n,
-        read.m,
-        read.a,
-        read.b,
-        read.c,
-        read.least_pressure_kPa * KPA,
-        read.least_slip_speed_mm_s * MM,
-        static_coefficient,
-        where=str(path),
-    )
-
-
 def quality(fit: FrictionFit) -> dict[str, float | int | str | None]:
     """Return the figures that tell how good the law is, by name with unit."""
     data = fit.data
@@ -91,7 +76,7 @@ def friction_yaml(fit: FrictionFit, origin: str, source: str, provenance: Mappin
         f"origin: {origin}",
         f"source: {_quoted(source)}",
         f"static_coefficient: {fit.law.static_coefficient:g}",
-        *(f"{name}: {constants[name]:.8g}" for name in CONSTANTS),
+        *(f"{name}: {constants[name]:.8g}" for name in FITTED),
         f"least_pressure_kPa: {constants['least_pressure'] / KPA:g}",
         f"least_slip_speed_mm_s: {constants['least_slip_speed'] / MM:g}",
         "intervals_95:",

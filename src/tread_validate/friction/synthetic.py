@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .laws import FrictionLaw
+from .law import FrictionLaw
 
 Array = NDArray[np.float64]
 

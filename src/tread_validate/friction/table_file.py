@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +10,6 @@ from numpy.typing import NDArray
 
 from ..columns import read_columns
 from ..errors import InputError
-from ..provenance import sha256_file
-from ..study import Friction, FrictionTable
-from .laws import FrictionLaw, table_law
 
 Array = NDArray[np.float64]
 
@@ -118,23 +114,3 @@ def table_of(data: FrictionData) -> Array:
                 raise InputError(data.source, f"no measurement at {missing}", "every pressure at every slip speed")
             table[i, j] = data.coefficient[here].mean()
     return table
-
-
-def read_table_law(path: Path, static_coefficient: float) -> FrictionLaw:
-    """Return the law that interpolates a tribometer table; one pressure or one speed stands for all."""
-    digest = sha256_file(path) if path.is_file() else ""
-    return _read(path, static_coefficient, digest)
-
-
-@lru_cache(maxsize=32)
-def _read(path: Path, static_coefficient: float, digest: str) -> FrictionLaw:
-    """Read once per content: `digest` is there for the cache."""
-    data = read_friction_table(path)
-    return table_law(data.pressures, data.speeds, table_of(data), static_coefficient)
-
-
-def measured_table(friction: Friction, root: Path | str | None = None) -> FrictionData | None:
-    """Return the measurements behind a study's ``table`` law, for a report; None for every other kind."""
-    if not isinstance(friction, FrictionTable):
-        return None
-    return read_friction_table((Path(root) if root is not None else Path()) / friction.file)

@@ -1,5 +1,6 @@
 """What is to be run: a study file, its models and its cases."""
 
+from ..friction import Coulomb, Friction, FrictionTable, Huemer, HuemerFile, Power
 from ..yaml_text import load_yaml
 from .block import Block, Sipe
 from .case import Case, conditions_digest, with_mesh
@@ -14,14 +15,13 @@ from .compound import (
     Wlf,
 )
 from .document import Study
-from .friction import Coulomb, Friction, FrictionTable, Huemer, HuemerFile
 from .load import LoadedStudy, load_study
 from .path import MeasuredBelt, Rig, SimplifiedBelt, Wheel
 from .settings import DeckSettings, SpringSettings
 
 __all__ = [
     "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FractionalZener", "Friction",
-    "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "PronyCompound", "PronyFile", "PronyTerm",
-    "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf", "conditions_digest",
-    "load_study", "load_yaml", "with_mesh",
+    "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "Power", "PronyCompound", "PronyFile",
+    "PronyTerm", "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf",
+    "conditions_digest", "load_study", "load_yaml", "with_mesh",
 ]  # fmt: skip

@@ -12,11 +12,11 @@ from pydantic import ValidationError
 
 from ..errors import InputError
 from ..fields import Label, Numerics, Sourced
+from ..friction import Friction
 from ..units import MM, PERCENT
 from .block import Block
 from .compound import Compound
 from .digest import digest_of
-from .friction import Friction
 from .path import MeasuredBelt, Rig, Wheel
 from .settings import DeckSettings, SpringSettings
 

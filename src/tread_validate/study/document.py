@@ -7,9 +7,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from ..fields import Label, Line, Name, Numerics, Strict
+from ..friction import Friction
 from .block import Block
 from .compound import Compound
-from .friction import Friction
 from .path import Wheel
 from .run import Run
 from .settings import DeckSettings, SpringSettings

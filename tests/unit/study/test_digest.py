@@ -42,6 +42,8 @@ EVERYTHING = {
         "coulomb": SOURCED | {"kind": "coulomb", "kinetic_coefficient": 0.5},
         "huemer": SOURCED
         | {"kind": "huemer", "alpha": 0.8, "beta": 0.1, "n": 0.9, "m": 10.0, "a": 3.7, "b": -4.5, "c": 1.8},
+        "power": SOURCED
+        | {"kind": "power", "reference_coefficient": 0.8, "reference_slip_speed_mm_s": 100.0, "exponent": -0.1},
         "table": SOURCED | {"kind": "table", "file": "one.dat"},
         "huemer_file": SOURCED | {"kind": "huemer_file", "file": "one.dat"},
     },
@@ -72,6 +74,7 @@ EVERYTHING = {
             ("b", "wheel", "sipes", "prony", "huemer", {"speed_m_s": 3.0}),
             ("c", "measured", "sipes", "prony_file", "table", {"speed_m_s": 2.0}),
             ("d", "rig", "plain", "sweeps", "huemer_file", {"speed_rpm": 300.0}),
+            ("f", "rig", "plain", "zener", "power", {"speed_rpm": 300.0}),
             ("e", "rig", "plain", "zener", "coulomb", {"speed_rpm": 300.0, "poissons_ratio": 0.47}),
         )
     ],
@@ -127,7 +130,7 @@ def changed(value: object, name: str, found: tuple[object, ...]) -> object:
     if isinstance(value, bool):
         return not value
     if isinstance(value, int | float):
-        return value + 1 if isinstance(value, int) else 1.01 * value + 0.001
+        return value + 1 if isinstance(value, int) else 1.01 * value + 0.0123
     if isinstance(value, str):
         return f"{value}x"
     if isinstance(value, tuple):
@@ -187,9 +190,9 @@ def _chain(study: Study, at: tuple[object, ...]):
 
 def test_a_factor_left_out_and_given_differ(root):
     study = Study.model_validate(EVERYTHING)
-    own = replaced(study, ("runs", 4, "poissons_ratio"), None)
+    own = replaced(study, ("runs", 5, "poissons_ratio"), None)
     assert digests(own, root) == digests(study, root)  # 0.47 is what the compound has
-    other = replaced(study, ("runs", 4, "poissons_ratio"), (0.45, 0.49))
+    other = replaced(study, ("runs", 5, "poissons_ratio"), (0.45, 0.49))
     ids = [case.case_id for case in expand(other, root / "study.yaml", root, "")]
     assert sum("-nu0p45-" in name for name in ids) == sum("-nu0p49-" in name for name in ids) > 0
     assert len(set(digests(other, root))) == len(ids)

@@ -8,10 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...friction import law
-from ...friction.table_file import read_friction_table
 from ...material import prony_series, surrogate_modulus
 from ...material.compound import compound_route
-from ...study import Compound, FractionalZener, Friction, FrictionTable
+from ...study import Compound, FractionalZener, Friction
 from ...units import MPA
 from ..content import Mark
 from ..palette import BLACK, BLUE, GREEN, PURPLE, VERMILION
@@ -63,7 +62,7 @@ def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple
 def friction(folder: Path, name: str, friction_law: Friction, root: Path, marks: tuple[Mark, ...]) -> Drawn:
     """Draw the kinetic coefficient against slip speed at several pressures."""
     rule = law(friction_law, root)
-    data = read_friction_table(root / friction_law.file) if isinstance(friction_law, FrictionTable) else None
+    data = friction_law.measurements(root)
     pressures = (
         PRESSURES if data is None else tuple(np.quantile(data.pressures, (0.0, 0.33, 0.67, 1.0), method="nearest"))
     )

@@ -1,0 +1,93 @@
+"""Friction laws as entries of a study: what one number means, and the laws' limits."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import TypeAdapter, ValidationError
+
+from tread_validate.friction import ENTRIES, FORMS, Friction, FrictionData, law, power_law
+from tread_validate.friction.laws.power import fit_power
+
+SOURCED = {"origin": "assumed", "source": "for the test"}
+
+
+def entry(**keys: object):
+    return TypeAdapter(Friction).validate_python(SOURCED | keys)
+
+
+def test_coulomb_law_of_one_number_has_one_coefficient():
+    """The static coefficient is the kinetic one where it is not given: nothing sticks at a number nobody set."""
+    one = entry(kind="coulomb", kinetic_coefficient=0.5)
+    assert one.static_coefficient == 0.5
+    assert law(one).constant_coefficient == 0.5
+    two = entry(kind="coulomb", kinetic_coefficient=0.5, static_coefficient=0.7)
+    assert two.static_coefficient == 0.7
+    assert law(two).constant_coefficient == 0.5
+
+
+def test_a_frictionless_law_is_a_law():
+    smooth = law(entry(kind="coulomb", kinetic_coefficient=0.0))
+    assert smooth.static_coefficient == 0.0
+    assert smooth.kinetic(1e5, 1.0) == 0.0
+    with pytest.raises(ValidationError):
+        entry(kind="coulomb", kinetic_coefficient=0.0, static_coefficient=-0.1)
+
+
+def test_every_constant_has_a_unit_and_every_form_fortran_of_its_own():
+    for form in FORMS.values():
+        assert all(form.units.values())
+        assert "function fricmu(nProps, props, press, speed)" in form.fortran
+        assert all(len(line) <= 72 for line in form.fortran.splitlines())
+    assert len({item.model_fields["kind"].annotation for item in ENTRIES}) == len(ENTRIES)
+
+
+@settings(deadline=None)  # the first call compiles
+@given(
+    mu=st.floats(0.01, 3.0),
+    exponent=st.floats(-1.0, 1.0),
+    speed=st.floats(1e-3, 20.0),
+    times=st.floats(1.0, 50.0),
+    pressure=st.floats(0.0, 1e7),
+)
+def test_power_law_is_scale_free_above_its_floor_and_level_below(mu, exponent, speed, times, pressure):
+    """mu(k v) = k^n mu(v) whatever v and the pressure; mu(v0) = mu0."""
+    friction = power_law(mu, 0.1, exponent)
+    assert friction.kinetic(pressure, 0.1) == pytest.approx(mu, rel=1e-13)
+    ratio = float(friction.kinetic(pressure, times * speed) / friction.kinetic(pressure, speed))
+    assert ratio == pytest.approx(times**exponent, rel=1e-12)
+    assert friction.kinetic(pressure, 0.0) == friction.kinetic(pressure, 1e-3) == friction.kinetic(pressure, -5e-4)
+
+
+def test_power_law_is_recovered_from_its_own_table():
+    """Exact readings at six speeds: exponent and coefficients to rounding."""
+    drawn = power_law(0.8, 0.1, -0.2)
+    speed = np.geomspace(2e-3, 5.0, 6)
+    pressure = np.full(6, 2e5)
+    rows = np.arange(6)
+    data = FrictionData(
+        pressure, speed, drawn.kinetic(pressure, speed), np.zeros(6, dtype=int), rows, pressure[:1], speed, "test"
+    )
+    found = fit_power(data)
+    assert found.constants["exponent"] == pytest.approx(-0.2, rel=1e-12)
+    np.testing.assert_allclose(found.kinetic(2e5, speed), drawn.kinetic(2e5, speed), rtol=1e-12)
+
+
+def test_constants_reach_the_deck_in_its_units_and_the_kernel_in_si():
+    """v0 = 0.1 m/s = 100 mm/s; the least slip speed 1 mm/s = 0.001 m/s."""
+    friction = law(entry(kind="power", reference_coefficient=0.8, reference_slip_speed_mm_s=100.0, exponent=-0.1))
+    assert friction.parameters.tolist() == pytest.approx([0.8, 0.1, -0.1, 1e-3], rel=1e-15)
+    assert friction.deck_properties == pytest.approx((0.9, 0.8, 100.0, -0.1, 1.0), rel=1e-15)
+    assert replace(friction, static_coefficient=0.0).deck_properties[0] == 0.0
+
+
+def test_root_of_a_file_is_the_study_s(tmp_path: Path):
+    (tmp_path / "table.csv").write_text("pressure_Pa,slip_speed_m_s,friction_coefficient\n1e5,0.1,0.8\n1e5,1,0.6\n")
+    table = entry(kind="table", file="table.csv")
+    assert law(table, tmp_path).kinetic(1e5, 0.1) == pytest.approx(0.8)
+    assert table.measurements(tmp_path).coefficient.size == 2
