@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, Deck
+from ..inp import Block, Deck, label
+from ..inp.amplitude import amplitude_table
 
 Array = NDArray[np.float64]
 
@@ -194,7 +195,7 @@ def _velocities(deck: Deck) -> _Prescribed:
         if step > 1:
             raise InputError(f"{block.where}: *BOUNDARY", "velocities that change in a later step", "those of step 1")
         for line in block.data:
-            target = line.fields[0].upper()
+            target = label(line.fields[0])
             first = line.integer_at(1, "a degree of freedom")
             size = line.number_at(3, "a velocity", 0.0)
             for freedom in range(first, line.integer_at(2, "a degree of freedom", first) + 1):
@@ -212,8 +213,7 @@ def _velocities(deck: Deck) -> _Prescribed:
 def _table(block: Block) -> tuple[Array, Array]:
     if block.value("TIME", "STEP TIME") != "TOTAL TIME" or block.value("DEFINITION", "TABULAR") != "TABULAR":
         raise InputError(f"{block.where}: *AMPLITUDE", str(dict(block.parameters)), "TABULAR against TIME=TOTAL TIME")
-    numbers = [line.number_at(i, "a number") for line in block.data for i in range(len(line.fields))]
-    table = np.array(numbers[: 2 * (len(numbers) // 2)]).reshape(-1, 2)
-    if table.shape[0] < 2 or not np.all(np.diff(table[:, 0]) > 0):
-        raise InputError(f"{block.where}: *AMPLITUDE", f"{table.shape[0]} point(s)", "times in order, two or more")
+    table = amplitude_table(block)
+    if table.shape[0] < 2:
+        raise InputError(f"{block.where}: *AMPLITUDE", "one point", "two or more")
     return table[:, 0], table[:, 1]

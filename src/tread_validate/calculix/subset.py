@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..files import read_text
-from ..inp import Block, Deck, read_deck
+from ..inp import Block, Deck, label, read_deck
+from ..inp.sets import Sets
+from ..inp.table import integer_rows, number_table
 from .motion import Motion, read_motions
 
 # keyword -> what CalculiX 2.20 does with it
@@ -45,7 +47,7 @@ READ = {
     "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "RIGID BODY", "AMPLITUDE", "MATERIAL", "ELASTIC", "SOLID SECTION",
     "SURFACE INTERACTION", "FRICTION", "INITIAL CONDITIONS", "BOUNDARY", "STEP", "DYNAMIC", "CONTACT PAIR",
 }  # fmt: skip
-MOST_MEMBERS = 5_000_000
+NODE_LINE = "a node number and x, y, z"
 COULOMB_ROUTINE = re.compile(r"^\s+fricmu\s*=\s*props\(2\)\s*$", re.MULTILINE)
 
 
@@ -156,44 +158,39 @@ def _sift(deck: Deck) -> tuple[str, ...]:
 
 
 def _sets(deck: Deck) -> dict[str, tuple[int, ...]]:
-    sets: dict[str, tuple[int, ...]] = {}
-    for block in deck.blocks:
-        name = None
-        if block.keyword in ("NSET", "ELSET"):
-            name = block.value(block.keyword)
-            members = _members(block)
-        elif block.keyword in ("NODE", "ELEMENT"):
-            key = "NSET" if block.keyword == "NODE" else "ELSET"
-            if key in block.parameters:
-                name = block.value(key)
-                members = tuple(line.integer_at(0, "a number") for line in block.data)
-        if name is not None:
-            sets[name] = sets.get(name, ()) + members
-    return sets
+    """Return the labels of every node and element set; one name is one set, of nodes or of elements."""
+    nodes = [(block, number_table(block.data, 4, NODE_LINE)[:, 0].astype(np.int64)) for block in deck.named("NODE")]
+    elements = [(block, _rows(block)) for block in deck.named("ELEMENT")]
+    table = np.concatenate([rows for _, rows in elements]) if elements else np.zeros((0, 9), dtype=np.int64)
+    sets = Sets(
+        np.concatenate([labels for _, labels in nodes]) if nodes else table[:, 0],
+        table[:, 0],
+        lambda members: np.unique(table[np.isin(table[:, 0], members), 1:]),
+    )
+    for block, labels in nodes:
+        sets.extend("node", block.parameters.get("NSET"), labels)
+    for block, rows in elements:
+        sets.extend("element", block.parameters.get("ELSET"), rows[:, 0])
+    sets.read(deck.blocks)
+    return {name: tuple(found.tolist()) for name, found in (*sets.elements.items(), *sets.nodes.items())}
 
 
-def _members(block: Block) -> tuple[int, ...]:
-    if "GENERATE" in block.parameters:
-        members: list[int] = []
-        for line in block.data:
-            first, last = line.integer_at(0, "a first number"), line.integer_at(1, "a last number")
-            step = line.integer_at(2, "a step", 1)
-            if step < 1 or last < first:
-                raise InputError(line.where, line.text[:40], "first <= last and a step of 1 or more")
-            if (last - first) // step > MOST_MEMBERS:
-                raise InputError(line.where, line.text[:40], f"at most {MOST_MEMBERS} members")
-            members += range(first, last + 1, step)
-        return tuple(members)
-    return tuple(line.integer_at(i, "a number") for line in block.data for i in range(len(line.fields)))
+def _rows(block: Block) -> NDArray[np.int64]:
+    """Return label and nodes of each element, (m, 9)."""
+    rows = integer_rows(block.data, 9)
+    if rows is None:
+        rows = np.array([[line.integer_at(i, "a number") for i in range(9)] for line in block.data], dtype=np.int64)
+    return rows
 
 
 def _block_nodes(deck: Deck) -> tuple[list[int], list[tuple[float, float, float]]]:
-    numbers, places = [], []
+    numbers: list[int] = []
+    places: list[tuple[float, float, float]] = []
     for block in deck.named("NODE"):
-        for line in block.data:
-            numbers.append(line.integer_at(0, "a node number"))
-            places.append(tuple(line.number_at(i, "a coordinate", 0.0) for i in (1, 2, 3)))
-    return numbers, places  # type: ignore[return-value]
+        table = number_table(block.data, 4, NODE_LINE)
+        numbers += table[:, 0].astype(np.int64).tolist()
+        places += [tuple(place) for place in table[:, 1:].tolist()]
+    return numbers, places
 
 
 def _elements(deck: Deck, sets: dict[str, tuple[int, ...]]) -> tuple[NDArray[np.int64], tuple[tuple[int, ...], str]]:
@@ -201,15 +198,15 @@ def _elements(deck: Deck, sets: dict[str, tuple[int, ...]]) -> tuple[NDArray[np.
     for block in deck.named("ELEMENT"):
         if block.value("TYPE") != "C3D8R":
             raise InputError(f"{block.where}: *ELEMENT, TYPE", block.value("TYPE"), "C3D8R")
-        rows += [[line.integer_at(i, "a number") for i in range(9)] for line in block.data]
+        rows.append(_rows(block))
     if not rows:
         raise InputError(deck.path, "no *ELEMENT", "a meshed block")
     for block in deck.named("SURFACE"):
         if block.value("TYPE", "ELEMENT") == "ELEMENT" and len(block.data) == 1 and len(block.data[0].fields) == 2:
-            name, side = (part.upper() for part in block.data[0].fields)
+            name, side = (label(part) for part in block.data[0].fields)
             if name not in sets:
                 raise InputError(block.data[0].where, name, "an element set of the deck")
-            return np.array(rows, dtype=np.int64), (sets[name], side)
+            return np.concatenate(rows), (sets[name], side)
     raise InputError(deck.path, "no element-based contact face", "*SURFACE, TYPE=ELEMENT with one set and face")
 
 

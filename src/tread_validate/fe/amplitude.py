@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..inp import Block
+from ..inp.amplitude import amplitude_table
 from ..kernels import kernel
 
 Floats = NDArray[np.float64]
@@ -51,12 +52,7 @@ def read_amplitudes(blocks: list[Block]) -> dict[str, Amplitude]:
     for block in blocks:
         if block.keyword != "AMPLITUDE":
             continue
-        numbers = [line.number_at(i, "time, value pairs") for line in block.data for i in range(len(line.fields))]
-        if not numbers or len(numbers) % 2:
-            raise InputError(block.where, f"{len(numbers)} numbers", "time, value pairs")
-        pairs = np.array(numbers).reshape(-1, 2)
-        if np.any(np.diff(pairs[:, 0]) <= 0):
-            raise InputError(block.where, "times that do not increase", "increasing times")
+        pairs = amplitude_table(block)
         name = block.value("NAME")
         if name in amplitudes:
             raise InputError(block.where, f"amplitude {name} twice", "each amplitude once")

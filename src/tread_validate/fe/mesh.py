@@ -8,7 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, DataLine
+from ..inp import Block, DataLine, label
+from ..inp.deck import LARGEST_LABEL
+from ..inp.sets import Sets, is_label
+from ..inp.table import integer_rows, number_table
 from .rigid_surface import RigidSurface, read_rigid_surface
 
 Ints = NDArray[np.int64]
@@ -16,6 +19,9 @@ Floats = NDArray[np.float64]
 
 # Faces of a hexahedron in the language's order; the right-hand normal of each points into the element.
 FACES = np.array([[0, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]])
+
+
+NODE_LINE = "a node label and x, y, z"
 
 
 @dataclass
@@ -70,44 +76,37 @@ def read_mesh(blocks: list[Block]) -> Mesh:
     labels, coordinates = _nodes(node_blocks)
     element_labels, connectivity = _elements(element_blocks, labels)
     mesh = Mesh(labels, coordinates, element_labels, connectivity)
-    start = 0
+    sets = Sets(labels, element_labels, lambda members: _nodes_of(members, mesh))
     for block in node_blocks:
         if block.parameters.get("NSET"):
-            own = np.array([line.integer_at(0, "a node label") for line in block.data], dtype=np.int64)
-            _extend(mesh.node_sets, block.value("NSET"), _index(own, labels, block.where, "node"))
+            sets.extend("node", block.value("NSET"), number_table(block.data, 4, NODE_LINE)[:, 0].astype(np.int64))
     for block in element_blocks:
-        count = len(_joined(block))
         if block.parameters.get("ELSET"):
-            own = np.array([int(row[0][0]) for row in _joined(block)], dtype=np.int64)
-            _extend(mesh.element_sets, block.value("ELSET"), _index(own, element_labels, block.where, "element"))
-        start += count
+            sets.extend("element", block.value("ELSET"), _element_rows(block)[:, 0])
+    sets.read(blocks)
+    mesh.node_sets = {name: np.searchsorted(labels, members) for name, members in sets.nodes.items()}
+    mesh.element_sets = {name: np.searchsorted(element_labels, members) for name, members in sets.elements.items()}
     for block in blocks:
-        if block.keyword == "NSET":
-            _extend(mesh.node_sets, block.value("NSET"), _set(block, mesh.node_sets, labels, "node"))
-        elif block.keyword == "ELSET":
-            _extend(mesh.element_sets, block.value("ELSET"), _set(block, mesh.element_sets, element_labels, "element"))
-        elif block.keyword == "SURFACE":
+        if block.keyword == "SURFACE":
             _surface(block, mesh)
     return mesh
 
 
+def _nodes_of(elements: Ints, mesh: Mesh) -> Ints:
+    """Return the labels of the nodes of element labels."""
+    at = np.searchsorted(mesh.element_labels, elements)
+    return np.unique(mesh.node_labels[mesh.connectivity[at]])
+
+
 def _nodes(blocks: list[Block]) -> tuple[Ints, Floats]:
-    labels: list[int] = []
-    rows: list[tuple[float, float, float]] = []
-    for block in blocks:
-        for line in block.data:
-            labels.append(line.integer_at(0, "a node label"))
-            x, y, z = (line.number_at(i, "a coordinate", 0.0) for i in (1, 2, 3))
-            rows.append((x, y, z))
-            if len(line.fields) > 4:
-                raise InputError(line.where, f"{len(line.fields)} fields", "label, x, y, z")
-    array = np.array(labels, dtype=np.int64)
+    table = np.concatenate([number_table(block.data, 4, NODE_LINE) for block in blocks])
+    array = table[:, 0].astype(np.int64)
     order = np.argsort(array, kind="stable")
     array = array[order]
     twice = np.flatnonzero(np.diff(array) == 0)
     if twice.size:
         raise InputError(blocks[0].where, f"node {array[twice[0]]} twice", "each node once")
-    return array, np.array(rows, dtype=np.float64)[order]
+    return array, np.ascontiguousarray(table[order, 1:])
 
 
 def _joined(block: Block) -> list[tuple[tuple[str, ...], str]]:
@@ -127,19 +126,28 @@ def _joined(block: Block) -> list[tuple[tuple[str, ...], str]]:
     return rows
 
 
-def _elements(blocks: list[Block], labels: Ints) -> tuple[Ints, Ints]:
+def _element_rows(block: Block) -> Ints:
+    """Return label and nodes of each element of a block, (m, 9)."""
+    rows = integer_rows(block.data, 9)
+    if rows is not None:
+        return rows
     table: list[list[int]] = []
-    for block in blocks:
-        for fields, where in _joined(block):
-            if len(fields) != 9:
-                raise InputError(where, f"{len(fields)} fields", "an element label and 8 nodes")
-            try:
-                table.append([int(text) for text in fields])
-            except ValueError:
-                raise InputError(where, ", ".join(fields), "9 integers") from None
-    if not table:
+    for fields, where in _joined(block):
+        if len(fields) != 9:
+            raise InputError(where, f"{len(fields)} fields", "an element label and 8 nodes")
+        try:
+            table.append([int(text) for text in fields])
+        except ValueError:
+            raise InputError(where, ", ".join(fields), "9 integers") from None
+        if max(map(abs, table[-1])) > LARGEST_LABEL:
+            raise InputError(where, max(table[-1]), f"labels of at most {LARGEST_LABEL}")
+    return np.array(table, dtype=np.int64).reshape(-1, 9)
+
+
+def _elements(blocks: list[Block], labels: Ints) -> tuple[Ints, Ints]:
+    array = np.concatenate([_element_rows(block) for block in blocks])
+    if not array.size:
         raise InputError(blocks[0].where, "no element", "at least one C3D8R")
-    array = np.array(table, dtype=np.int64)
     array = array[np.argsort(array[:, 0], kind="stable")]
     twice = np.flatnonzero(np.diff(array[:, 0]) == 0)
     if twice.size:
@@ -158,36 +166,12 @@ def _index(wanted: Ints, labels: Ints, where: str, what: str) -> Ints:
 
 
 def _members(text: str, sets: dict[str, Ints], labels: Ints, where: str, what: str) -> Ints:
-    name = text.strip('"') if text.startswith('"') else text.upper()
+    name = label(text)
     if name in sets:
         return sets[name]
-    try:
-        label = int(text)
-    except ValueError:
-        raise InputError(where, f"{what} set {text}", f"a {what} set or label that exists") from None
-    return _index(np.array([label], dtype=np.int64), labels, where, what)
-
-
-def _set(block: Block, sets: dict[str, Ints], labels: Ints, what: str) -> Ints:
-    parts: list[Ints] = []
-    for line in block.data:
-        if "GENERATE" in block.parameters:
-            first = line.integer_at(0, "first label")
-            last = line.integer_at(1, "last label", first)
-            step = line.integer_at(2, "increment", 1)
-            if step < 1 or last < first or (last - first) % step:
-                raise InputError(line.where, line.text, "first, last, increment with last = first + k increment")
-            if (last - first) // step >= labels.size:
-                raise InputError(line.where, line.text[:40], f"at most {labels.size} labels, as many as there are")
-            parts.append(_index(np.arange(first, last + 1, step, dtype=np.int64), labels, line.where, what))
-        else:
-            parts += [_members(text, sets, labels, line.where, what) for text in line.fields if text]
-    return np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
-
-
-def _extend(sets: dict[str, Ints], name: str, members: Ints) -> None:
-    old = sets.get(name, np.zeros(0, dtype=np.int64))
-    sets[name] = np.unique(np.concatenate([old, members]))
+    if not is_label(name):
+        raise InputError(where, f"{what} set {text}", f"a {what} set or label that exists")
+    return _index(np.array([int(name)], dtype=np.int64), labels, where, what)
 
 
 def _surface(block: Block, mesh: Mesh) -> None:

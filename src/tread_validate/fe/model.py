@@ -169,6 +169,9 @@ def _initial(blocks: list[Block], mesh: Mesh) -> tuple[Floats | None, Floats]:
     for block in blocks:
         if block.keyword != "INITIAL CONDITIONS":
             continue
+        if block.parameters["TYPE"] == "ROTATING VELOCITY":
+            _rotating(block, mesh, velocity)
+            continue
         for line in block.data:
             nodes = mesh.nodes_of(line.fields[0], line)
             if block.parameters["TYPE"] == "TEMPERATURE":
@@ -182,6 +185,25 @@ def _initial(blocks: list[Block], mesh: Mesh) -> tuple[Floats | None, Floats]:
             if dof <= 3:
                 velocity[nodes, dof - 1] = line.number_at(2, "a velocity")
     return temperature, velocity
+
+
+def _rotating(block: Block, mesh: Mesh, velocity: Floats) -> None:
+    """Set ``TYPE=ROTATING VELOCITY``: v = v0 + omega x (x - a), omega along the axis from a to b.
+
+    Pairs of lines: node or set, rate (rad/s), v0; then a and b.
+    """
+    if len(block.data) % 2:
+        raise InputError(f"{block.where}: *{block.keyword}", f"{len(block.data)} lines", "pairs of lines")
+    for first, second in zip(block.data[::2], block.data[1::2], strict=True):
+        nodes = mesh.nodes_of(first.fields[0], first)
+        rate = first.number_at(1, "an angular velocity", 0.0)
+        shift = np.array([first.number_at(i, "a velocity", 0.0) for i in (2, 3, 4)])
+        a, b = (np.array([second.number_at(i + j, "a coordinate", 0.0) for j in range(3)]) for i in (0, 3))
+        length = float(np.linalg.norm(b - a))
+        if rate != 0.0 and not length > 0.0:
+            raise InputError(second.where, second.text, "two points apart on the axis of rotation")
+        spin = rate * (b - a) / (length or 1.0)
+        velocity[nodes] = shift + np.cross(spin, mesh.coordinates[nodes] - a)
 
 
 def _check_pairs(model: Model) -> None:

@@ -85,6 +85,7 @@ class Step:
     mass_scaling: list[tuple[Ints, float | None, float | None, str]] = field(default_factory=list)
     history_interval: float | None = None
     node_history: dict[str, Ints] = field(default_factory=dict)
+    renewed: set[str] = field(default_factory=set)
 
 
 def read_steps(blocks: list[Block], mesh: Mesh, amplitudes: dict[str, Amplitude]) -> list[Step]:
@@ -185,8 +186,16 @@ def _amplitude(block: Block, amplitudes: dict[str, Amplitude]) -> Amplitude | No
     return amplitudes[name]
 
 
+def _is_first_new(block: Block, step: Step) -> bool:
+    """Whether OP=NEW takes away what went before: the first such block of a keyword in a step does."""
+    if block.parameters.get("OP") != "NEW" or block.keyword in step.renewed:
+        return False
+    step.renewed.add(block.keyword)
+    return True
+
+
 def _boundary(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
-    if block.parameters.get("OP") == "NEW":
+    if _is_first_new(block, step):
         step.conditions.clear()
     amplitude = _amplitude(block, amplitudes)
     velocity = block.parameters.get("TYPE") == "VELOCITY"
@@ -215,7 +224,7 @@ def _boundary(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: 
 
 
 def _load(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
-    if block.parameters.get("OP") == "NEW":
+    if _is_first_new(block, step):
         cloads = block.keyword == "CLOAD"
         step.loads = [load for load in step.loads if (load.dof > 0) != cloads]
     amplitude = _amplitude(block, amplitudes)

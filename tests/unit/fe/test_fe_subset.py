@@ -80,6 +80,56 @@ def test_good_deck_is_read(tmp_path: Path) -> None:
     assert not model.needs_user_routine
 
 
+ROAD = GOOD[GOOD.index("*SURFACE, TYPE=CYLINDER") : GOOD.index("*SURFACE INTERACTION")]
+BLOCK = (
+    GOOD[GOOD.index("*NODE, NSET=ALL") : GOOD.index("*NODE, NSET=REF")]
+    + (GOOD[GOOD.index("*ELEMENT") : GOOD.index("*MATERIAL")])
+)
+
+
+def test_a_deck_of_parts_is_the_model_of_the_flat_deck(tmp_path: Path) -> None:
+    """Block and road as part instances, lowered by 4 and turned twice by half a turn: the same nodes, faces, road."""
+    parts = f"*PART, NAME=BLOCK\n{BLOCK}*END PART\n*PART, NAME=ROAD\n*NODE, NSET=REF\n9, 0., 0., 4.\n{ROAD}*END PART\n"
+    parts = parts.replace("0., 0., 0., 1., 0., 0.\n0., 1., 0.", "0., 0., 4., 1., 0., 4.\n0., 1., 4.")
+    placed = "*INSTANCE, NAME=B, PART=BLOCK\n*END INSTANCE\n*INSTANCE, NAME=R, PART=ROAD\n0., 0., -4.\n*END INSTANCE\n"
+    rest = GOOD[GOOD.index("*MATERIAL") :].replace(ROAD, "")
+    for old, new in (("REF,", "R.REF,"), ("TOP,", "B.TOP,"), ("FACE, ROAD", "B.FACE, R.ROAD")):
+        rest = rest.replace(old, new)
+    text = f"*HEADING\nparts\n{parts}*ASSEMBLY, NAME=A\n{placed}*END ASSEMBLY\n{rest}"
+    (flat, built) = (read_model(written(tmp_path, one)) for one in (GOOD, text))
+    assert built.mesh.coordinates.tolist() == flat.mesh.coordinates.tolist()
+    assert built.mesh.connectivity.tolist() == flat.mesh.connectivity.tolist()
+    assert built.mesh.faces["B.FACE"].tolist() == flat.mesh.faces["FACE"].tolist()
+    road, same = built.mesh.rigid_surfaces["R.ROAD"], flat.mesh.rigid_surfaces["ROAD"]
+    assert road.origin.tolist() == same.origin.tolist()
+    assert road.frame.tolist() == same.frame.tolist()
+    assert [sorted(step.conditions) for step in built.steps] == [sorted(step.conditions) for step in flat.steps]
+
+
+def test_a_rotating_start_is_a_turn_about_an_axis_and_a_shift(tmp_path: Path) -> None:
+    """100 rad/s about the line x = 1, y = 0 along z and 5 mm/s along x: v = (5 - 100 y, 100 (x - 1), 0)."""
+    start = "*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nALL, 100., 5., 0., 0.\n1., 0., 0., 1., 0., 7.\n"
+    model = read_model(written(tmp_path, GOOD.replace("*STEP, NAME=only", start + "*STEP, NAME=only")))
+    x, y = model.mesh.coordinates[:8, 0], model.mesh.coordinates[:8, 1]
+    assert model.velocity[:8, 0].tolist() == (5.0 - 100.0 * y).tolist()
+    assert model.velocity[:8, 1].tolist() == (100.0 * (x - 1.0)).tolist()
+
+
+def test_an_amplitude_may_be_scaled_in_time_and_value(tmp_path: Path) -> None:
+    text = GOOD.replace("NAME=A, TIME=TOTAL TIME", "NAME=A, TIME=TOTAL TIME, SCALEX=0.5, SCALEY=3.")
+    amplitude = read_model(written(tmp_path, text)).steps[0].conditions[(4, 3)].amplitude
+    assert amplitude is not None
+    assert amplitude.times.tolist() == [0.0, 5e-6]
+    assert amplitude.values.tolist() == [0.0, 3.0]
+
+
+def test_op_new_takes_away_what_stood_before_its_step_once(tmp_path: Path) -> None:
+    """Two blocks with OP=NEW in one step add up: the second does not take away the first."""
+    text = GOOD.replace("*BOUNDARY, AMPLITUDE=A\n", "*BOUNDARY, OP=NEW\nREF, 1, 6\n*BOUNDARY, OP=NEW, AMPLITUDE=A\n")
+    conditions = read_model(written(tmp_path, text)).steps[0].conditions
+    assert sorted(conditions) == [(node, 3) for node in (4, 5, 6, 7)] + [(8, dof) for dof in range(1, 7)]
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -69,6 +70,87 @@ def test_an_include_through_a_symbolic_link_out_of_the_folder_is_refused(tmp_pat
     (folder / "link.inp").symlink_to(tmp_path / "secret.inp")
     with pytest.raises(InputError, match="inside the folder"):
         read_deck(deck_of(folder, "*INCLUDE, INPUT=link.inp\n"))
+
+
+def test_keywords_parameters_and_values_may_be_short_and_blanks_do_not_count(tmp_path: Path) -> None:
+    """As long as one name is left; an exact name comes first (*NODE beside *NODE OUTPUT)."""
+    deck = read_deck(
+        deck_of(
+            tmp_path,
+            "*NODE,NS=A\n*solidsec, els=a, mat=m\n*SECTIONCONTROLS, NAME=C, HOUR=RELAX\n"
+            "*OUTPUT, HIST, TIMEINTERVAL=1e-5, TIMEMARKS=YES\n*TRANSVERSE SHEAR\n*INITIAL COND, TYPE=ROTATINGVEL\n",
+        )
+    )
+    assert [block.keyword for block in deck.blocks] == [
+        "NODE", "SOLID SECTION", "SECTION CONTROLS", "OUTPUT", "TRANSVERSE SHEAR", "INITIAL CONDITIONS",
+    ]  # fmt: skip
+    assert dict(deck.blocks[1].parameters) == {"ELSET": "A", "MATERIAL": "M"}
+    assert deck.blocks[2].value("HOURGLASS") == "RELAX STIFFNESS"
+    assert set(deck.blocks[3].parameters) == {"HISTORY", "TIME INTERVAL", "TIME MARKS"}
+    assert deck.blocks[5].value("TYPE") == "ROTATING VELOCITY"
+
+
+@pytest.mark.parametrize("ends", ["\n", "\r\n", "\r"])
+def test_line_ends_marks_and_latin_letters_do_not_matter(ends: str, tmp_path: Path) -> None:
+    """CR LF, CR, a byte order mark, a Latin-1 byte in a comment; line numbers count the same."""
+    text = ends.join(["*NODE", "** Gr\xf6\xdfe 5\x85 mm", "1, 0.", "*STEP"])
+    for data in (b"\xef\xbb\xbf" + text.encode("utf-8"), text.encode("latin-1")):
+        (tmp_path / "a.inp").write_bytes(data)
+        deck = read_deck(tmp_path / "a.inp")
+        assert [(block.keyword, block.line) for block in deck.blocks] == [("NODE", 1), ("STEP", 4)]
+        assert deck.blocks[0].data[0].number == 3
+
+
+def test_an_include_is_looked_for_beside_the_file_it_stands_in(tmp_path: Path) -> None:
+    """A file of data lines alone goes on with the keyword above its *INCLUDE; so does what follows it."""
+    (tmp_path / "mesh").mkdir()
+    deck_of(tmp_path / "mesh", "*NODE\n*INCLUDE, INPUT=more.txt\n9, 9.\n", "nodes.inp")
+    deck_of(tmp_path / "mesh", "2, 0.5\n", "more.txt")
+    deck = read_deck(deck_of(tmp_path, "*INCLUDE, INPUT=mesh\\nodes.inp\n"))
+    assert [(line.where, line.text) for line in deck.blocks[0].data] == [
+        ("mesh/more.txt:1", "2, 0.5"),
+        ("mesh/nodes.inp:3", "9, 9."),
+    ]
+
+
+def test_data_lines_may_stand_in_a_file_of_their_own(tmp_path: Path) -> None:
+    deck_of(tmp_path, "** nodes\n1, 0., 1.\n", "nodes.txt")
+    (block,) = read_deck(deck_of(tmp_path, "*NODE, INPUT=nodes.txt, NSET=A\n")).blocks
+    assert [line.where for line in block.data] == ["nodes.txt:2"]
+
+
+@pytest.mark.parametrize(
+    ("files", "says"),
+    [
+        ({"a.inp": "*INCLUDE, INPUT=b.inp\n", "b.inp": "*INCLUDE, INPUT=a.inp\n"}, r"b\.inp:1.*itself"),
+        ({"a.inp": "*INCLUDE, INPUT=b.inp\n" * 2000, "b.inp": "*NODE\n"}, r"a\.inp:1001.*1000"),
+        ({f"{i}.inp" if i else "a.inp": f"*INCLUDE, INPUT={i + 1}.inp\n" * 10 for i in range(5)} | {"5.inp": "*NODE\n"},
+         "1000|deep"),
+        ({"a.inp": "*INCLUDE, INPUT=\n"}, r"a\.inp:1"),
+        ({"a.inp": "*INCLUDE, INPUT=b\0.inp\n"}, "binary"),
+        ({"a.inp": "*INCLUDE, INPUT=" + "x" * 5000 + "\n"}, "file name"),
+    ],
+)  # fmt: skip
+def test_includes_that_never_end_are_cut_short(files: dict[str, str], says: str, tmp_path: Path) -> None:
+    """A circle, a thousand and one, ten each on five levels."""
+    for name, text in files.items():
+        deck_of(tmp_path, text, name)
+    with pytest.raises(InputError, match=says) as fault:
+        read_deck(tmp_path / "a.inp")
+    assert "\n" not in str(fault.value)
+
+
+def test_a_file_of_two_gigabytes_and_one_that_is_none_are_refused_unread(tmp_path: Path) -> None:
+    """The size is looked at first (the file here is a hole); a folder or a pipe is no deck."""
+    with (tmp_path / "a.inp").open("wb") as file:
+        file.truncate(2 * 1024**3)
+    with pytest.raises(InputError, match="2147483648 bytes"):
+        read_deck(tmp_path / "a.inp")
+    (tmp_path / "d.inp").mkdir()
+    os.mkfifo(tmp_path / "p.inp")
+    for name in ("d.inp", "p.inp"):
+        with pytest.raises(InputError, match="regular file"):
+            read_deck(tmp_path / name)
 
 
 @pytest.mark.parametrize(

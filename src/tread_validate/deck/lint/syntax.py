@@ -60,8 +60,8 @@ def _check_parameters(block: Block, known: Keyword, findings: Findings) -> None:
             near = difflib.get_close_matches(name, allowed, 1)
             hint = f"; did you mean {near[0]}?" if near else ""
             findings.add(block, "unknown-parameter", f"*{block.keyword} has no parameter {name}{hint}")
-        elif name in known.values and value is not None and value not in known.values[name]:
-            expected = ", ".join(known.values[name])
+        elif known.values_of(name) and value is not None and value not in known.values_of(name):
+            expected = ", ".join(known.values_of(name))
             findings.add(block, "parameter-value", f"*{block.keyword}, {name}={value}: expected one of {expected}")
     for name in sorted(known.required - set(block.parameters)):
         findings.add(block, "missing-parameter", f"*{block.keyword} needs {name}=")

@@ -1,0 +1,395 @@
+"""Parts, instances and the assembly, resolved into the flat deck that means the same.
+
+Each ``*INSTANCE`` yields the blocks of its part: nodes placed, node and element labels raised to a range of their own,
+names of sets, surfaces and orientations qualified as ``INSTANCE.NAME``, which is how the rest of the deck refers to
+them. ``*SYSTEM`` is applied to the nodes that follow it. Lines keep the file and number they are written at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+
+from ..errors import InputError
+from .deck import LARGEST_LABEL, Block, DataLine, Lines, label
+from .placement import Motion, instance_motion, moved_nodes, moved_profile, still, system_motion
+from .table import integer_rows
+
+Report = Callable[[str, str, object, str], None]
+
+STRUCTURE = frozenset({"PART", "END PART", "INSTANCE", "END INSTANCE", "ASSEMBLY", "END ASSEMBLY"})
+DEFINES = {
+    "NSET": "NSET",
+    "ELSET": "ELSET",
+    "SURFACE": "NAME",
+    "ORIENTATION": "NAME",
+    "NODE": "NSET",
+    "ELEMENT": "ELSET",
+}
+"""Keywords that define a name in their part, and by which parameter."""
+REFERS = ("NSET", "ELSET", "REF NODE", "TIE NSET", "PIN NSET", "ANALYTICAL SURFACE", "ORIENTATION", "SURFACE")
+"""Parameters that refer to a name or label of the part."""
+ALL_LABELS = frozenset({"NSET", "ELSET"})
+FIRST_LABEL = frozenset({
+    "SURFACE", "BOUNDARY", "CLOAD", "DLOAD", "INITIAL CONDITIONS", "TEMPERATURE", "MASS", "TRANSFORM", "TIE",
+    "CONTACT PAIR", "DSLOAD", "EMBEDDED ELEMENT", "EQUATION", "MPC",
+})  # fmt: skip
+"""Keywords whose data lines begin with a label or name of the part."""
+UNPLACED = frozenset({"NGEN", "NFILL", "NCOPY", "ELCOPY", "ELGEN", "NMAP", "ORIENTATION", "TRANSFORM"})
+"""Keywords that a moved or renumbered instance does not carry over."""
+
+
+@dataclass
+class _Part:
+    """A part, or the own blocks of an instance or of the assembly."""
+
+    name: str
+    at: Block
+    blocks: list[Block] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class _Scope:
+    """What the names and labels of one instance become."""
+
+    prefix: str
+    first: int
+    names: frozenset[str]
+
+    def name(self, text: str) -> str:
+        """Return a name or label of the part as the flat deck has it."""
+        bare = text.strip()
+        if bare.isdigit():
+            return str(int(bare) + self.first) if self.first else bare
+        named = label(bare)
+        return f'"{self.prefix}.{named}"' if named in self.names and self.prefix else text
+
+
+def resolve(written: Sequence[Block], report: Report) -> tuple[tuple[Block, ...], tuple[tuple[int, str], ...]]:
+    """Return the flat blocks of a deck and the first label of each instance.
+
+    Parameters
+    ----------
+    written : sequence of Block
+        As read.
+    report : callable
+        Is told (rule, where, found, expected) of what does not resolve.
+
+    Returns
+    -------
+    blocks, instances
+        See `Deck`.
+    """
+    if not any(block.keyword in STRUCTURE or block.keyword == "SYSTEM" or "SYSTEM" in block.parameters
+               for block in written):  # fmt: skip
+        return tuple(written), ()
+    return _Resolver(report).run(written)
+
+
+class _Resolver:
+    """Walks through a deck and keeps what is open."""
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+        self.parts: dict[str, _Part] = {}
+        self.flat: list[Block] = []
+        self.instances: list[tuple[int, str]] = []
+        self.names: set[str] = set()
+        self.next_label = 0
+        self.open: list[Block] = []
+        self.held: _Part | None = None
+        self.assembly: _Part | None = None
+        self.own: _Scope | None = None
+
+    def run(self, written: Sequence[Block]) -> tuple[tuple[Block, ...], tuple[tuple[int, str], ...]]:
+        """Resolve all blocks."""
+        self._number_assembly(written)
+        for block in written:
+            handler = getattr(self, "_" + block.keyword.lower().replace(" ", "_"), None)
+            if block.keyword in STRUCTURE and handler is not None:
+                handler(block)
+            elif self.held is not None:
+                self.held.blocks.append(block)
+            elif self.assembly is not None or self.own is not None:
+                self.flat.append(self._of_assembly(block))
+            else:
+                self.flat.append(block)
+        for block in self.open:
+            self._tell("structure", block, f"*{block.keyword} without *END {block.keyword}", "both")
+            if block.keyword == "INSTANCE":
+                self._end_instance(block)
+        return tuple(_systems(self.flat)), tuple(self.instances)
+
+    def _tell(self, rule: str, block: Block, found: object, expected: str) -> None:
+        self.report(rule, f"{block.where}: *{block.keyword}", found, expected)
+
+    def _number_assembly(self, written: Sequence[Block]) -> None:
+        """Nodes and elements of the assembly itself keep their labels: instances begin above them."""
+        inside, assembly, largest = False, False, 0
+        for block in written:
+            if block.keyword in ("PART", "INSTANCE"):
+                inside = True
+            elif block.keyword in ("END PART", "END INSTANCE"):
+                inside = False
+            elif block.keyword == "ASSEMBLY":
+                inside, assembly = False, True
+            elif not inside and block.keyword in ("NODE", "ELEMENT"):
+                largest = max(largest, _largest_label([block]))
+        self.next_label = _round_up(largest) if largest else 0
+        if assembly and largest:
+            self.instances.append((0, ""))
+
+    # structure ------------------------------------------------------------------------------------------------
+
+    def _part(self, block: Block) -> None:
+        self._close_unfinished(block)
+        name = block.parameters.get("NAME") or ""
+        if name in self.parts:
+            self._tell("duplicate-name", block, f"part {name} twice", "each part once")
+        self.held = self.parts[name] = _Part(name, block)
+        self.open.append(block)
+
+    def _end_part(self, block: Block) -> None:
+        self._close(block, "PART")
+        self.held = None
+
+    def _assembly(self, block: Block) -> None:
+        self._close_unfinished(block)
+        self.assembly = _Part("", block)
+        self.open.append(block)
+
+    def _end_assembly(self, block: Block) -> None:
+        self._close(block, "ASSEMBLY")
+        self.own, self.assembly = _Scope("", 0, frozenset()), None
+
+    def _instance(self, block: Block) -> None:
+        if self.held is not None and self.held.at.keyword == "INSTANCE":
+            self._tell("structure", block, f"*INSTANCE of {self.held.at.where} not ended", "*END INSTANCE first")
+            self._end_instance(block)
+        self.held = _Part(block.parameters.get("NAME") or "", block)
+        self.open.append(block)
+
+    def _end_instance(self, block: Block) -> None:
+        if self.held is None or self.held.at.keyword != "INSTANCE":
+            self._close(block, "INSTANCE")
+            return
+        own = self.held
+        self.held = None
+        if block.keyword == "END INSTANCE":
+            self._close(block, "INSTANCE")
+        elif own.at in self.open:
+            self.open.remove(own.at)
+        self._place(own)
+
+    def _close(self, block: Block, keyword: str) -> None:
+        if self.open and self.open[-1].keyword == keyword:
+            self.open.pop()
+            return
+        if any(one.keyword == keyword for one in self.open):
+            while self.open[-1].keyword != keyword:
+                missing = self.open.pop()
+                self._tell("structure", missing, f"*{missing.keyword} without *END {missing.keyword}", "both")
+            self.open.pop()
+            return
+        self._tell("structure", block, f"no *{keyword} open", f"*{keyword} before it")
+
+    def _close_unfinished(self, block: Block) -> None:
+        """A part or assembly begins: whatever part is still open has lost its end."""
+        while self.open and self.open[-1].keyword in ("PART", "INSTANCE"):
+            missing = self.open.pop()
+            self._tell(
+                "structure", missing, f"*{block.keyword} at line {block.line} before *END {missing.keyword}",
+                f"*END {missing.keyword}",
+            )  # fmt: skip
+            self.held = None
+
+    # instances ------------------------------------------------------------------------------------------------
+
+    def _place(self, own: _Part) -> None:
+        """Add the blocks of one instance."""
+        at = own.at
+        name = own.name
+        named = at.parameters.get("PART")
+        if named is None:
+            found = "an instance imported from another analysis" if "INSTANCE" in at.parameters else "no PART="
+            self._tell("import", at, found, "PART=name of a part of this deck")
+            return
+        if not name or name in self.names:
+            self._tell("duplicate-name", at, f"instance {name} twice" if name else "no NAME", "each instance once")
+        self.names.add(name)
+        part = self.parts.get(named)
+        if part is None:
+            known = ", ".join(sorted(self.parts)[:6]) or "none"
+            self._tell("dangling-part", at, f"part {named}", f"a *PART of the deck ({known})")
+            return
+        blocks = [*part.blocks, *own.blocks]
+        try:
+            motion = instance_motion(at)
+        except InputError as error:
+            self.report("structure", error.where, error.found, error.expected)
+            motion = still()
+        largest = _largest_label(blocks)
+        first, self.next_label = self.next_label, self.next_label + _round_up(largest)
+        if self.next_label > LARGEST_LABEL:
+            self._tell("structure", at, f"labels beyond {LARGEST_LABEL} in all instances together", "fewer or lower")
+            return
+        self.instances.append((first, name))
+        scope = _Scope(name, first, frozenset(_names(blocks)))
+        for block in _systems(blocks, motion, first):
+            if block.keyword in UNPLACED and (first or not motion.is_identity):
+                self._tell("not-placed", block, f"in instance {name}, moved or renumbered", "an instance as it stands")
+            self.flat.append(_qualified(block, scope, motion))
+
+    def _of_assembly(self, block: Block) -> Block:
+        """Return a block of the assembly or after it, with labels of the form ``INSTANCE.7`` resolved."""
+        instance = block.parameters.get("INSTANCE")
+        if block.keyword in ("NSET", "ELSET") and instance is not None:
+            first = next((base for base, name in self.instances if name == instance), None)
+            if first is None:
+                self._tell("dangling-instance", block, f"instance {instance}", "an *INSTANCE of the assembly")
+                return block
+            prefix = _Scope(instance, first, frozenset(self._names_of(instance)))
+            block = _qualified(block, prefix, still(), define=False)
+            parameters = {name: value for name, value in block.parameters.items() if name != "INSTANCE"}
+            return Block(block.keyword, parameters, block.data, block.file, block.line, block.raw)
+        return self._with_labels(block)
+
+    def _names_of(self, instance: str) -> Iterable[str]:
+        start = f"{instance}."
+        for block in self.flat:
+            parameter = DEFINES.get(block.keyword)
+            value = block.parameters.get(parameter) if parameter else None
+            if value and value.startswith(start):
+                yield value[len(start) :]
+
+    def _with_labels(self, block: Block) -> Block:
+        """Replace ``INSTANCE.7`` in data lines and parameters by the label that it is in the flat deck."""
+        if block.keyword in ("NODE", "ELEMENT", "HEADING"):
+            return block
+        bases = {name: first for first, name in self.instances if name}
+
+        def replaced(text: str) -> str:
+            head, point, tail = text.strip().rpartition(".")
+            if not point or not tail.strip().isdigit() or not head or head[0].isdigit() or head[0] in "+-.":
+                return text
+            first = bases.get(label(head))
+            return text if first is None else str(first + int(tail))
+
+        parameters = {
+            name: replaced(block.raw.get(name, value)) if value and name in REFERS and "." in value else value
+            for name, value in block.parameters.items()
+        }
+        parameters = {
+            name: value if value is None or value.isdigit() else block.parameters[name]
+            for name, value in parameters.items()
+        }
+        texts = block.data.texts
+        if any("." in text and any(letter.isalpha() for letter in text) for text in texts):
+            texts = [
+                ", ".join(replaced(one) for one in line.fields) + ("," if line.text.endswith(",") else "")
+                if "." in line.text else line.text
+                for line in block.data
+            ]  # fmt: skip
+            data = block.data.with_texts(texts)
+        else:
+            data = block.data
+        return Block(block.keyword, parameters, data, block.file, block.line, block.raw)
+
+
+def _systems(blocks: Iterable[Block], motion: Motion | None = None, first: int = 0) -> Iterable[Block]:
+    """Apply ``*SYSTEM`` and the instance's motion to the nodes; everything else passes."""
+    place = motion or still()
+    local = still()
+    for block in blocks:
+        if block.keyword == "SYSTEM":
+            local = system_motion(block)
+        elif block.keyword == "NODE":
+            yield moved_nodes(block, place.after(local), first)
+        else:
+            yield block
+
+
+def _names(blocks: Iterable[Block]) -> Iterable[str]:
+    for block in blocks:
+        parameter = DEFINES.get(block.keyword)
+        value = block.parameters.get(parameter) if parameter else None
+        if value:
+            yield value
+
+
+def _qualified(block: Block, scope: _Scope, motion: Motion, define: bool = True) -> Block:
+    """Return a block of a part as one of the flat deck."""
+    parameters = dict(block.parameters)
+    own = DEFINES.get(block.keyword)
+    for name in {*REFERS, *([own] if own else [])} & set(parameters):
+        value = parameters[name]
+        if not value or (name == own and not define):
+            continue
+        parameters[name] = label(scope.name(f'"{value}"' if not value.isdigit() else value))
+    data = block.data
+    if block.keyword == "SURFACE" and (block.parameters.get("TYPE") or "ELEMENT") not in ("ELEMENT", "NODE"):
+        block = moved_profile(block, motion)
+        data = block.data
+    elif block.keyword == "ELEMENT":
+        data = _raised(block, scope.first)
+    elif block.keyword in ALL_LABELS:
+        data = _members(block, scope)
+    elif block.keyword in FIRST_LABEL:
+        data = block.data.with_texts([_first_named(line, scope) for line in block.data])
+    return Block(block.keyword, parameters, data, block.file, block.line, block.raw)
+
+
+def _raised(block: Block, first: int) -> Lines:
+    """Return element lines with every label raised."""
+    if not first or not len(block.data):
+        return block.data
+    rows = integer_rows(block.data, block.data.texts[0].count(",") + 1)
+    if rows is not None:
+        return block.data.with_texts([str(row)[1:-1] for row in (rows + first).tolist()])
+    texts = []
+    for line in block.data:
+        if not all(text.isdigit() for text in line.fields if text):
+            raise InputError(line.where, line.text[:40], "element label and nodes")
+        raised = ", ".join(str(int(text) + first) if text else "" for text in line.fields)
+        texts.append(raised + ("," if line.text.endswith(",") else ""))
+    return block.data.with_texts(texts)
+
+
+def _members(block: Block, scope: _Scope) -> Lines:
+    """Return the data of ``*NSET`` or ``*ELSET``; the increment of GENERATE is no label."""
+    generated = "GENERATE" in block.parameters
+    if not scope.first and not scope.names:
+        return block.data
+    texts = []
+    for line in block.data:
+        fields = [scope.name(text) if text else text for text in line.fields]
+        if generated and len(fields) > 2:
+            fields[2:] = line.fields[2:]
+        texts.append(", ".join(fields))
+    return block.data.with_texts(texts)
+
+
+def _first_named(line: DataLine, scope: _Scope) -> str:
+    fields = list(line.fields)
+    if not fields or not fields[0]:
+        return line.text
+    fields[0] = scope.name(fields[0])
+    return ", ".join(fields) + ("," if len(fields) == 1 else "")
+
+
+def _largest_label(blocks: Iterable[Block]) -> int:
+    """Return the largest node or element label that the blocks define."""
+    largest = 0
+    for block in blocks:
+        if block.keyword not in ("NODE", "ELEMENT"):
+            continue
+        for text in block.data.texts:
+            head = text.split(",", 1)[0].strip()
+            if head.isdigit() and len(head) < 10:
+                largest = max(largest, int(head))
+    return largest
+
+
+def _round_up(value: int) -> int:
+    """Return the power of ten above `value`, so that raised labels still show the one in the part."""
+    return int(10 ** len(str(max(value, 1))))
