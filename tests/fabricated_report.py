@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from tread_validate.compare.tables import TABLES
 from tread_validate.history import History
 from tread_validate.study import Case, load_study
 
@@ -72,7 +73,8 @@ def fabricate(folder: Path) -> Fabricated:
     places.tables.mkdir()
     _histories(places, cases)
     for name, frame in _frames(cases).items():
-        frame.to_csv(places.tables / f"{name}.csv", index=False, lineterminator="\n")
+        whole = frame.reindex(columns=list(TABLES[name].header()), fill_value="").map(_spelt)
+        whole.to_csv(places.tables / f"{name}.csv", index=False, lineterminator="\n")
     provenance = {
         "commit": "0" * 12,
         "version": "0.1.0",
@@ -94,6 +96,10 @@ def peak(case: Case) -> float:
 def state(case: Case) -> str:
     """Return the made-up state of the reference of a case."""
     return {STALE: "stale", MISSING: "missing"}.get(case.case_id, "current")
+
+
+def _spelt(value: object) -> object:
+    return str(value).lower() if isinstance(value, bool) else value
 
 
 def _histories(places: Fabricated, cases: tuple[Case, ...]) -> None:
@@ -136,6 +142,7 @@ def _frames(cases: tuple[Case, ...]) -> dict[str, pd.DataFrame]:
                 }
             ]
         ),
+        "sensitivity": pd.DataFrame(),
         "assumed": pd.DataFrame(
             [
                 {"input": "compound soft", "origin": "synthetic", "source": "source " + NASTY, "cases": 18},
@@ -157,6 +164,7 @@ def _peaks(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                 {
                     "source": source,
                     "case_id": case.case_id,
+                    "rig": case.is_rig,
                     "shape": case.block.shape,
                     "path": case.path_name,
                     "block": case.block_name,
@@ -214,7 +222,7 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "error": 0.07 if there else "",
                     "error_type": "relative",
                     "passed": "",
-                    "verdict": "",
+                    "verdict": "cannot tell",
                     "note": "",
                 }
             )
@@ -229,7 +237,7 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "error": -0.09 if there else "",
                     "error_type": "score",
                     "passed": "",
-                    "verdict": "",
+                    "verdict": "cannot tell",
                     "note": "good" if there else "",
                 }
             )
@@ -303,14 +311,14 @@ def _regressions() -> dict[str, pd.DataFrame]:
                     }
                 )
                 if made:
-                    for x, residual in ((1.571, 0.5), (3.142, -0.5)):
+                    for rpm, x, residual in ((150, 1.571, 0.5), (300, 3.142, -0.5)):
                         residuals.append(
                             {
                                 "source": source,
                                 "shape": shape,
                                 "coefficient": coefficient,
                                 "set": "22 degC 0.1 mm",
-                                "case_id": "rig-rectangle-22c-0p1mm-150rpm",
+                                "case_id": f"rig-rectangle-22c-0p1mm-{rpm}rpm",
                                 "x": x,
                                 "x_unit": "m/s" if coefficient == "a_v" else "degC",
                                 "force_N": 100,

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import pandas as pd
-
+from ..compare.tables import CaseRow
 from ..study.factors import FACTORS
 from . import wording
-from .tables import number, records
 
 TITLES = {factor.key: factor.title for factor in FACTORS}
 UNITS = {factor.key: factor.unit for factor in FACTORS}
@@ -27,36 +26,33 @@ class CaseView:
     levels: dict[str, str]
     label: str
     assumed: str
-    row: dict[str, Any]
+    row: CaseRow
 
 
-def case_views(cases: pd.DataFrame) -> tuple[CaseView, ...]:
+def case_views(rows: Sequence[CaseRow]) -> tuple[CaseView, ...]:
     """Return the cases in the table's order."""
-    rows = records(cases)
-    return tuple(_view(row, _told([other for other in rows if other["run"] == row["run"]])) for row in rows)
+    return tuple(_view(row, _told([other for other in rows if other.run == row.run])) for row in rows)
 
 
-def _told(rows: list[dict[str, Any]]) -> list[str]:
+def _told(rows: Sequence[CaseRow]) -> list[str]:
     """Return the factors that stand in a case's label: the usual ones, and what else varies in its run."""
     return [
         factor.key
         for factor in FACTORS
-        if factor.key in ALWAYS_TOLD or len({str(row.get(factor.column)) for row in rows}) > 1
+        if factor.key in ALWAYS_TOLD or len({getattr(row, factor.column) for row in rows}) > 1
     ]
 
 
-def _view(row: dict[str, Any], told: list[str]) -> CaseView:
-    rpm, speed = number(row["speed_rpm"]), number(row["speed_m_s"])
-    creep = number(row["creep_percent"])
-    free = str(row["free_rolling"]).lower() in ("true", "1", "1.0")
+def _view(row: CaseRow, told: list[str]) -> CaseView:
+    rpm, speed, creep, free = row.speed_rpm, row.speed_m_s, row.creep_percent, row.free_rolling
     levels = {
-        factor.key: _plain(number(row.get(factor.column)))
+        factor.key: _plain(getattr(row, factor.column))
         if factor.kind == "number"
-        else str(row.get(factor.column, "")).replace("_", " ")
+        else str(getattr(row, factor.column)).replace("_", " ")
         for factor in FACTORS
     }
     levels |= {
-        "path": PATHS.get(str(row["path"]), levels["path"]),
+        "path": PATHS.get(row.path, levels["path"]),
         "speed": f"{_plain(rpm)} rpm" if rpm is not None else f"{_plain(speed)} m/s",
         "creep": "free rolling" if free else f"{_plain(creep)} %",
     }
@@ -71,7 +67,7 @@ def _view(row: dict[str, Any], told: list[str]) -> CaseView:
     else:
         told = [key for key in told if key != "creep"]
     label = " · ".join(words[key] for key in told)
-    return CaseView(str(row["case_id"]), str(row["run"]), levels, label, str(row["assumed"]), row)
+    return CaseView(row.case_id, row.run, levels, label, row.assumed, row)
 
 
 def factor_levels(views: tuple[CaseView, ...]) -> list[dict[str, Any]]:

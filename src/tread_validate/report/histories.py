@@ -49,13 +49,12 @@ def load_histories(tables: Tables, store: HistoryStore) -> dict[str, dict[str, H
     A reference that is stale or corrupt is not drawn: its force belongs to another deck.
     """
     found: dict[str, dict[str, History]] = {}
-    for row in tables.peaks.itertuples(index=False):
-        source, case_id = str(row.source), str(row.case_id)
-        if row.status != "current" or source.endswith(":published"):
+    for row in tables.peaks:
+        if row.status != "current" or row.source.endswith(":published"):
             continue
-        history = store.load(source, case_id)
+        history = store.load(row.source, row.case_id)
         if history is not None:
-            found.setdefault(case_id, {})[source] = history
+            found.setdefault(row.case_id, {})[row.source] = history
     return found
 
 

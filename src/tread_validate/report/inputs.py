@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .. import provenance
+from ..compare.tables import PublishedRow
 from . import wording
 from .content import Cell, Column, Item, Paragraph, Row, Section, Table
 from .marks import Marks
@@ -20,7 +21,7 @@ UNITS = {
 
 def inputs_section(tables: Tables, marks: Marks) -> Section:
     """Return the assumptions with their codes, and what the paper's other numbers are used for."""
-    counts = {str(row.input): number(row.cases) for row in tables.assumed.itertuples(index=False)}
+    counts = {row.input: row.cases for row in tables.assumed}
     rows = []
     for mark in marks.all():
         name, _, source = mark.text.partition(f" ({mark.origin})")
@@ -30,7 +31,7 @@ def inputs_section(tables: Tables, marks: Marks) -> Section:
             Cell(name),
             Cell(mark.origin),
             Cell(source.removeprefix(": ")),
-            Cell("–" if cases is None else f"{cases:.0f}", sort=cases),
+            Cell("–" if cases is None else f"{cases}", sort=cases),
         )
         rows.append(Row(cells, key=f"assumption-{mark.code}"))
     columns = (
@@ -54,15 +55,13 @@ def inputs_section(tables: Tables, marks: Marks) -> Section:
 
 def _published(tables: Tables) -> Table:
     rows = []
-    for record in records(tables.published):
-        value, unit = number(record["value"]), str(record["unit"])
-        shown = str(record["value"]) if value is None else wording.plain(value)
+    for row in tables.published:
         cells = (
-            Cell(str(record["section"])),
-            Cell(str(record["statement"])),
-            Cell(f"{shown} {wording.unit(unit)}".strip(), sort=value),
-            Cell(str(record["comparability"])),
-            Cell(str(record["comparison"])),
+            Cell(row.section),
+            Cell(row.statement),
+            Cell(_printed(row), sort=row.value),
+            Cell(row.comparability),
+            Cell(row.comparison),
         )
         rows.append(Row(cells))
     columns = (
@@ -75,20 +74,27 @@ def _published(tables: Tables) -> Table:
     return Table("published", "Every number in the paper's text", columns, tuple(rows), folded=True)
 
 
+def _printed(row: PublishedRow) -> str:
+    """Return a printed number, or the range that stands in its place, with its unit; a dash where neither is."""
+    shown = "" if row.value is None else wording.plain(row.value)
+    if row.value is None and row.low is not None and row.high is not None:
+        shown = f"{wording.plain(row.low)} to {wording.plain(row.high)}"
+    return f"{shown} {wording.unit(row.unit)}".strip() if shown else "–"
+
+
 def sensitivity_table(tables: Tables) -> Table | None:
     """Return how the scores move with window and sampling, where that was tabulated."""
-    if not len(tables.sensitivity):
+    if not tables.sensitivity:
         return None
     rows = []
-    for record in records(tables.sensitivity):
-        value, change, samples = (number(record[key]) for key in ("value", "change", "samples"))
+    for row in tables.sensitivity:
         cells = (
-            Cell(wording.quantity(str(record["quantity"]), str(record["metric"]))),
-            Cell(str(record["variation"])),
-            Cell(wording.digits(samples, 6), sort=samples),
-            Cell(wording.digits(value, 4), sort=value),
-            Cell(wording.signed(wording.digits(change)), sort=change),
-            Cell(str(record["case_id"])),
+            Cell(wording.quantity(row.quantity, row.metric)),
+            Cell(row.variation),
+            Cell(wording.digits(row.samples, 6), sort=row.samples),
+            Cell(wording.digits(row.value, 4), sort=row.value),
+            Cell(wording.signed(wording.digits(row.change)), sort=row.change),
+            Cell(row.case_id),
         )
         rows.append(Row(cells))
     columns = (

@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-import pandas as pd
-
+from ..compare.tables import AssumedRow
 from .content import Mark
 
 _ENDING = re.compile(r"\s*\((assumed|synthetic)\)$")
@@ -15,10 +14,10 @@ _ENDING = re.compile(r"\s*\((assumed|synthetic)\)$")
 class Marks:
     """Turn the tables' ``assumed`` columns into coded marks (S1, A2, ...), in the order of the list of assumptions."""
 
-    def __init__(self, assumed: pd.DataFrame) -> None:
+    def __init__(self, assumed: Iterable[AssumedRow]) -> None:
         self._known: dict[str, Mark] = {}
-        for row in assumed.itertuples(index=False):
-            self._add(str(row.input), str(row.origin), str(row.source))
+        for row in assumed:
+            self._add(row.input, row.origin, row.source)
 
     def of(self, *texts: object) -> tuple[Mark, ...]:
         """Return the marks named in ``"; "``-joined lists, without doubles, in order of their codes."""

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
 
-import pandas as pd
-
+from ..compare.tables import ClaimRow, Ensemble, MetricRow
 from . import wording
 from .content import Cell, Column, Row, Table, Tone
 from .marks import Marks
-from .tables import Tables, number, records
+from .tables import Tables, pair_of
 
 HEADLINE = (
     ("peak_normal_force", "scalar"),
@@ -31,33 +30,26 @@ def value_cell(value: float | None, text: str, note: str = "", tone: Tone = "") 
     return Cell(text, sort=value, note=note, tone=tone)
 
 
-def verdict_cell(verdict: object, note: object = "", status: object = "current") -> Cell:
-    """Return a verdict with its symbol and reason; without a verdict, the status in words."""
-    key = str(verdict or "")
-    if str(status) == "not_compared":
-        return Cell("not compared", tone="mute", note=str(note or ""))
-    if not key:
-        words = wording.status(str(status)) if str(status) != "current" else "not judged"
-        return Cell(words, tone="mute", note=str(note or ""))
-    reason = str(note or "")
-    if str(status) not in ("current", "", "not_compared"):
-        reason = "; ".join(part for part in (wording.status(str(status)), reason) if part)
-    return Cell(wording.verdict(key), tone=wording.TONES.get(key, "mute"), note=reason)
+def verdict_cell(verdict: str, note: str = "", status: str = "current") -> Cell:
+    """Return a verdict with its symbol and reason."""
+    if status == "not_compared":
+        return Cell("not compared", tone="mute", note=note)
+    if status != "current":
+        note = "; ".join(part for part in (wording.status(status), note) if part)
+    return Cell(wording.verdict(verdict), tone=wording.TONES.get(verdict, "mute"), note=note)
 
 
 def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:
     """Return the ensemble statistics: the headline quantities over all cases, or every row."""
-    frame = tables.ensemble
+    found = sorted(tables.ensemble, key=_order)
     if headline:
         wanted = {key: rank for rank, key in enumerate(HEADLINE)}
-        found = [row for row in records(frame) if row["group"] == "all" and (row["quantity"], row["metric"]) in wanted]
-        found.sort(key=lambda row: (*_order(row), wanted[row["quantity"], row["metric"]]))
-        answered = {_pair(row) for row in found if number(row["compared"])}
+        found = [row for row in found if row.group == "all" and (row.quantity, row.metric) in wanted]
+        found.sort(key=lambda row: (*_order(row), wanted[row.quantity, row.metric]))
+        answered = {pair_of(row) for row in found if row.compared}
         # a comparison with nothing to compare with is one row, not eleven
-        found = [row for row in found if _pair(row) in answered or (row["quantity"], row["metric"]) == HEADLINE[0]]
-    else:
-        found = sorted(records(frame), key=_order)
-    rows = tuple(_ensemble_row(record, marks, headline) for record in found)
+        found = [row for row in found if pair_of(row) in answered or (row.quantity, row.metric) == HEADLINE[0]]
+    rows = tuple(_ensemble_row(row, marks, headline) for row in found)
     columns = [
         Column("Quantity", wide=True),
         Column("Cases compared", "of all", numeric=True),
@@ -86,52 +78,42 @@ def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:
     )
 
 
-def _order(record: dict[str, Any]) -> tuple[bool, str, str]:
+def _order(row: Ensemble) -> tuple[bool, str, str]:
     """Spring models against FE come first."""
-    predicted, reference = _pair(record)
+    predicted, reference = pair_of(row)
     return not (predicted.startswith("spring") and reference.startswith("fe")), predicted, reference
 
 
-def _pair(record: dict[str, Any]) -> tuple[str, str]:
-    return str(record["predicted_source"]), str(record["reference_source"])
-
-
-def _ensemble_row(record: dict[str, Any], marks: Marks, headline: bool) -> Row:
-    kind, unit = str(record["error_type"]), str(record["unit"])
-    compared, cases = number(record["compared"]) or 0.0, number(record["cases"]) or 0.0
-    mean, largest = number(record["mean_abs_error"]), number(record["largest_abs_error"])
-    passed = number(record["passed"])
-    note = str(record["note"] or "")
-    if compared:  # how many are missing stands in the next column already
+def _ensemble_row(row: Ensemble, marks: Marks, headline: bool) -> Row:
+    note = row.note
+    if row.compared:  # how many are missing stands in the next column already
         note = "; ".join(part for part in note.split("; ") if not part.endswith("runs cannot be compared"))
-    if compared == 0:
-        note = note or wording.status(str(record["status"]))
+    else:
+        note = note or wording.status(row.status)
 
     def show(value: float | None) -> str:
-        if value is None or kind == "score":
+        if value is None or row.error_type == "score":
             return wording.digits(value)
-        return wording.percent(value) if kind == "relative" else f"{wording.digits(value)} {unit}".strip()
+        return wording.percent(value) if row.error_type == "relative" else f"{wording.digits(value)} {row.unit}".strip()
 
     cells = [
-        Cell(wording.quantity(str(record["quantity"]), str(record["metric"])), note=note),
-        value_cell(compared, f"{compared:.0f} of {cases:.0f}"),
-        value_cell(mean, show(mean)),
-        value_cell(largest, show(largest), note=str(record["largest_case_id"] or "")),
-        value_cell(number(record["bias"]), wording.digits(number(record["bias"]))),
-        value_cell(number(record["model_scatter"]), wording.percent(number(record["model_scatter"]))),
-        value_cell(passed, f"{passed:.0f}" if passed is not None and compared else "–"),
+        Cell(wording.quantity(row.quantity, row.metric), note=note),
+        value_cell(row.compared, f"{row.compared} of {row.cases}"),
+        value_cell(row.mean_abs_error, show(row.mean_abs_error)),
+        value_cell(row.largest_abs_error, show(row.largest_abs_error), note=row.largest_case_id),
+        value_cell(row.bias, wording.digits(row.bias)),
+        value_cell(row.model_scatter, wording.percent(row.model_scatter)),
+        value_cell(row.passed, f"{row.passed}" if row.compared else "–"),
     ]
     if not headline:
-        cells.insert(1, Cell(wording.group(str(record["group"]))))
-    pair = (
-        f"{wording.source(str(record['predicted_source']))} against {wording.source(str(record['reference_source']))}"
-    )
-    return Row(tuple(cells), marks.of(record["assumed"]), group=pair)
+        cells.insert(1, Cell(wording.group(row.group)))
+    pair = f"{wording.source(row.predicted_source)} against {wording.source(row.reference_source)}"
+    return Row(tuple(cells), marks.of(row.assumed), group=pair)
 
 
-def count_verdicts(frame: pd.DataFrame) -> dict[str, int]:
-    """Count the verdicts of some rows; rows without one count as ``none``."""
-    counts = {"agrees": 0, "disagrees": 0, "cannot tell": 0, "none": 0}
-    for verdict in frame["verdict"]:
-        counts[str(verdict) if str(verdict) in counts else "none"] += 1
+def count_verdicts(rows: Iterable[MetricRow | ClaimRow]) -> dict[str, int]:
+    """Count the verdicts of some rows."""
+    counts = {"agrees": 0, "disagrees": 0, "cannot tell": 0}
+    for row in rows:
+        counts[row.verdict] += 1
     return counts

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import pandas as pd
-
+from ..compare.tables import Ensemble, MetricRow
 from . import wording
 from .content import Tone, Verdict, Verdicts
 from .marks import Marks
 from .results import count_verdicts
-from .tables import Tables, number, records
+from .tables import Tables, pairs_of
 
 LEAD = (
     "Every case of the study is run with the spring models of a tread block. Where a finite element (FE) run of the "
@@ -27,7 +24,7 @@ MOST_OPEN = 0.1  # share of verdicts that may be `cannot tell` where the label s
 
 def summary(tables: Tables, marks: Marks, delta: tuple[Tone, str] | None) -> Verdicts:
     """Return the verdict lines."""
-    pairs = _pairs(tables)
+    pairs = pairs_of(tables.ensemble)
     answered = [pair for pair in pairs if _compared(tables, pair)]
     lines = [_model(tables, marks, pair) for pair in answered]
     lines += [_claims(tables, marks), _slopes(tables, marks), _references(tables)]
@@ -39,18 +36,12 @@ def summary(tables: Tables, marks: Marks, delta: tuple[Tone, str] | None) -> Ver
     return Verdicts(tuple(line for line in lines if line is not None))
 
 
-def _pairs(tables: Tables) -> list[tuple[str, str]]:
-    frame = tables.ensemble
-    return list(dict.fromkeys(zip(frame["predicted_source"], frame["reference_source"], strict=True)))
-
-
 def _references(tables: Tables) -> Verdict:
     """Say how many FE references are current, in words."""
-    frame = tables.peaks
     texts: list[str] = []
     worst: Tone = "good"
     for source in tables.sources("fe"):
-        states = [str(value) for value in frame.loc[frame["source"] == source, "status"]]
+        states = [row.status for row in tables.peaks if row.source == source]
         counts = {state: states.count(state) for state in dict.fromkeys(states)}
         current = counts.pop("current", 0)
         text = f"{wording.source(source)}: {current} of {wording.plural(len(states), 'case')} have a current run"
@@ -66,44 +57,28 @@ def _references(tables: Tables) -> Verdict:
     return Verdict("Is there a reference for every case?", " ".join(texts), worst, label, (), "cases")
 
 
-def _row(tables: Tables, pair: tuple[str, str], quantity: str, metric: str) -> dict[str, Any] | None:
-    frame = tables.ensemble
-    chosen = frame[
-        (frame["predicted_source"] == pair[0])
-        & (frame["reference_source"] == pair[1])
-        & (frame["quantity"] == quantity)
-        & (frame["metric"] == metric)
-        & (frame["group"] == "all")
-    ]
-    found = records(chosen)
-    return found[0] if found else None
-
-
 def _model(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | None:
     """Say how well one model gives forces and histories; the verdict counts normal and tangential peaks alike."""
-    row = _row(tables, pair, "peak_normal_force", "scalar")
+    row = tables.statistics(pair, PEAKS[0])
     if row is None:
         return None
-    mine = tables.errors[
-        (tables.errors["predicted_source"] == pair[0]) & (tables.errors["reference_source"] == pair[1])
-    ]
-    bias, scatter = number(row["bias"]), number(row["model_scatter"])
+    mine = tables.of_pair(pair)
     parts = [f"mean |error| {_size(row)}"]
-    parts.append(f"largest {wording.percent(number(row['largest_abs_error']))} ({row['largest_case_id']})")
-    parts += [f"bias δ = {wording.digits(bias)}"] if bias is not None else []
-    parts += [f"scatter σ = {wording.percent(scatter)}"] if scatter is not None else []
-    normal = count_verdicts(mine[mine["quantity"] == PEAKS[0]])
-    tangential = count_verdicts(mine[mine["quantity"].isin(PEAKS[1:])])
+    parts.append(f"largest {wording.percent(row.largest_abs_error)} ({row.largest_case_id})")
+    parts += [f"bias δ = {wording.digits(row.bias)}"] if row.bias is not None else []
+    parts += [f"scatter σ = {wording.percent(row.model_scatter)}"] if row.model_scatter is not None else []
+    normal = count_verdicts(item for item in mine if item.quantity == PEAKS[0])
+    tangential = count_verdicts(item for item in mine if item.quantity in PEAKS[1:])
     text = f"Peak normal force: {', '.join(parts)}. {_counted(normal)}."
     text += _tangential(tables, pair, tangential) + _histories(tables, pair) + _grades(mine)
     counts = {key: normal[key] + tangential[key] for key in normal}
     question = f"{wording.source(pair[0])}: does it give the forces of {wording.source(pair[1])}?"
-    return Verdict(question, text, _tone(counts), _label(counts), marks.of(row["assumed"]), "results")
+    return Verdict(question, text, _tone(counts), _label(counts), marks.of(row.assumed), "results")
 
 
 def _compared(tables: Tables, pair: tuple[str, str]) -> bool:
-    row = _row(tables, pair, "peak_normal_force", "scalar")
-    return row is not None and bool(number(row["compared"]))
+    row = tables.statistics(pair, PEAKS[0])
+    return row is not None and row.compared > 0
 
 
 def _unanswered(tables: Tables, pairs: list[tuple[str, str]]) -> Verdict | None:
@@ -112,8 +87,8 @@ def _unanswered(tables: Tables, pairs: list[tuple[str, str]]) -> Verdict | None:
         return None
     found: dict[str, list[str]] = {}
     for predicted, reference in pairs:
-        row = _row(tables, (predicted, reference), "peak_normal_force", "scalar")
-        reason = wording.status(str(row["status"])) if row is not None else "no row"
+        row = tables.statistics((predicted, reference), PEAKS[0])
+        reason = wording.status(row.status) if row is not None else "no row"
         if reference.startswith("rig:"):
             reason = "no measured record of a pass has been imported"
         found.setdefault(f"{wording.source(reference)}: {reason}", []).append(wording.source(predicted))
@@ -122,8 +97,8 @@ def _unanswered(tables: Tables, pairs: list[tuple[str, str]]) -> Verdict | None:
 
 
 def _tangential(tables: Tables, pair: tuple[str, str], counts: dict[str, int]) -> str:
-    row = _row(tables, pair, PEAKS[1], "scalar")
-    if row is None or not number(row["compared"]):
+    row = tables.statistics(pair, PEAKS[1])
+    if row is None or not row.compared:
         return ""
     return f" Peak tangential forces: mean |error| {_size(row)} towards the leading edge. {_counted(counts)}."
 
@@ -131,23 +106,22 @@ def _tangential(tables: Tables, pair: tuple[str, str], counts: dict[str, int]) -
 def _histories(tables: Tables, pair: tuple[str, str]) -> str:
     found = []
     for quantity, name in (("normal_force", "normal"), ("tangential_force", "tangential")):
-        row = _row(tables, pair, quantity, "relative_rms")
-        if row is not None and number(row["compared"]):
-            found.append(f"{_size(row)}{' of the peak' if row['error_type'] == 'relative' else ''} ({name})")
+        row = tables.statistics(pair, quantity, "relative_rms")
+        if row is not None and row.compared:
+            found.append(f"{_size(row)}{' of the peak' if row.error_type == 'relative' else ''} ({name})")
     return f" Histories: mean RMS error {' and '.join(found)}." if found else ""
 
 
-def _size(row: dict[str, Any]) -> str:
+def _size(row: Ensemble) -> str:
     """Write a mean error in per cent or, where it is judged so, in its unit."""
-    size = number(row["mean_abs_error"])
-    return wording.percent(size) if row["error_type"] == "relative" else f"{wording.digits(size)} {row['unit']}"
+    size = row.mean_abs_error
+    return wording.percent(size) if row.error_type == "relative" else f"{wording.digits(size)} {row.unit}"
 
 
-def _grades(errors: pd.DataFrame) -> str:
+def _grades(errors: list[MetricRow]) -> str:
     text = ""
     for quantity, name in (("normal_force", "normal"), ("tangential_force", "tangential")):
-        own = errors[(errors["metric"] == "iso18571_r") & (errors["quantity"] == quantity)]
-        grades = [str(note) for note in own["note"]]
+        grades = [row.note for row in errors if (row.quantity, row.metric) == (quantity, "iso18571_r")]
         found = [f"{grades.count(g)} {g}" for g in ("excellent", "good", "fair", "poor") if g in grades]
         if found:
             text += f" ISO/TS 18571, {name}: {', '.join(found)}."
@@ -155,17 +129,17 @@ def _grades(errors: pd.DataFrame) -> str:
 
 
 def _claims(tables: Tables, marks: Marks) -> Verdict:
-    judged = tables.claims[(tables.claims["kind"] == "model") & (tables.claims["status"] != "not_compared")]
+    judged = [row for row in tables.claims if row.kind == "model" and row.status != "not_compared"]
     counts = count_verdicts(judged)
-    statements = wording.plural(judged["claim_id"].nunique(), "published statement")
+    statements = wording.plural(len({row.claim_id for row in judged}), "published statement")
     per_source = []
-    for name in dict.fromkeys(str(source) for source in judged["source"]):
-        own = count_verdicts(judged[judged["source"] == name])
+    for name in dict.fromkeys(row.source for row in judged):
+        own = count_verdicts(row for row in judged if row.source == name)
         told = f"{own['agrees']} agree, {own['disagrees']} disagree"
         open_ = f", {own['cannot tell']} cannot be told" if own["cannot tell"] else ""
         per_source.append(f"{wording.source(name)}: {told}{open_}")
     text = f"{statements} predicted here. {'; '.join(per_source)}."
-    tuned = tables.claims.loc[tables.claims["kind"] == "tuned", "claim_id"].nunique()
+    tuned = len({row.claim_id for row in tables.claims if row.kind == "tuned"})
     if tuned:
         text += f" Not counted: {tuned} that the stand-in compound was made to meet."
     return Verdict(
@@ -173,33 +147,32 @@ def _claims(tables: Tables, marks: Marks) -> Verdict:
         text,
         _tone(counts),
         _label(counts),
-        marks.of_column(judged["assumed"]),
+        marks.of_column(row.assumed for row in judged),
         "claims",
     )
 
 
 def _slopes(tables: Tables, marks: Marks) -> Verdict:
-    frame = tables.regression[tables.regression["set"] == "mean"]
+    means = [row for row in tables.regression if row.set == "mean"]
     texts: list[str] = []
     for coefficient, name in (("a_v", "Speed, % per m/s"), ("a_theta", "Temperature, % per °C")):
         values: dict[str, list[str]] = {}
-        for record in records(frame[frame["coefficient"] == coefficient]):
-            value = number(record["value"])
-            if value is not None:
-                shown = wording.percent(value, 1 if coefficient == "a_v" else 2).removesuffix("%").strip()
-                values.setdefault(str(record["source"]), []).append(shown)
+        for row in means:
+            if row.coefficient == coefficient and row.value is not None:
+                shown = wording.percent(row.value, 1 if coefficient == "a_v" else 2).removesuffix("%").strip()
+                values.setdefault(row.source, []).append(shown)
         own = [f"{wording.source(source)} {' and '.join(found)}" for source, found in values.items()]
-        texts.append(f"{name} ({' and '.join(dict.fromkeys(map(str, frame['shape'])))}): {'; '.join(own)}.")
-    different = tables.regression_differences
-    count = sum(str(value).lower() in ("true", "1", "1.0") for value in different["significant"])
-    if len(different):
+        texts.append(f"{name} ({' and '.join(dict.fromkeys(row.shape for row in means))}): {'; '.join(own)}.")
+    different = tables.differences
+    count = sum(bool(row.significant) for row in different)
+    if different:
         texts.append(f"{count} of {wording.plural(len(different), 'pair')} of coefficients differ significantly.")
     return Verdict(
         "Is the effect of speed and temperature right?",
         " ".join(texts) or "No regressions.",
         "unknown",
         "see Table 1",
-        marks.of_column(frame["assumed"]),
+        marks.of_column(row.assumed for row in means),
         "table1",
     )
 
@@ -225,9 +198,8 @@ def _counted(counts: dict[str, int]) -> str:
         ("agrees", "agree within uncertainty"),
         ("disagrees", "disagree"),
         ("cannot tell", "cannot be told"),
-        ("none", "without a verdict"),
     )
-    return "Verdicts: " + ", ".join(f"{counts[key]} {text}" for key, text in words if counts[key] or key != "none")
+    return "Verdicts: " + ", ".join(f"{counts[key]} {text}" for key, text in words)
 
 
 def _tone(counts: dict[str, int]) -> Tone:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from ..compare.tables import Coefficient
 from . import wording
 from .content import Cell, Column, Row, Table
 from .marks import Marks
 from .results import value_cell
-from .tables import Tables, number, records
+from .tables import Tables
 
 COEFFICIENTS = {"a_v": "a_v (speed), %/(m/s)", "a_theta": "a_θ (temperature), %/°C"}
 
 
 def regression_sources(tables: Tables) -> list[str]:
     """Return the sources of the regressions: published first, then measured, FE and spring models."""
-    names = list(dict.fromkeys(str(name) for name in tables.regression["source"]))
+    names = list(dict.fromkeys(row.source for row in tables.regression))
     rank = {"rig:published": 0, "fe:published": 1, "rig:measured": 2}
     kinds = {"fe": 3, "spring": 4}
     return sorted(names, key=lambda name: rank.get(name, kinds.get(name.split(":")[0], 5)))
@@ -23,19 +22,18 @@ def regression_sources(tables: Tables) -> list[str]:
 
 def table1(tables: Tables, marks: Marks) -> Table:
     """Return the paper's Table 1 with a column for every source."""
-    frame = tables.regression[tables.regression["set"] == "mean"]
+    means = [row for row in tables.regression if row.set == "mean"]
     sources = regression_sources(tables)
     columns = [Column("Block"), Column("Coefficient", "of the force")]
     for name in sources:
-        own = frame[frame["source"] == name]
-        columns.append(Column(wording.source(name), numeric=True, marks=marks.of_column(own["assumed"])))
+        own = marks.of_column(row.assumed for row in means if row.source == name)
+        columns.append(Column(wording.source(name), numeric=True, marks=own))
     rows = []
-    keys = dict.fromkeys(zip(frame["shape"], frame["coefficient"], strict=True))
+    keys = dict.fromkeys((row.shape, row.coefficient) for row in means)
+    by_key = {(row.source, row.shape, row.coefficient): row for row in means}
     for shape, coefficient in keys:
-        cells = [Cell(str(shape)), Cell(COEFFICIENTS.get(str(coefficient), str(coefficient)))]
-        for name in sources:
-            chosen = (frame["source"] == name) & (frame["shape"] == shape) & (frame["coefficient"] == coefficient)
-            cells.append(_coefficient_cell(records(frame[chosen])))
+        cells = [Cell(shape), Cell(COEFFICIENTS.get(coefficient, coefficient))]
+        cells += [_coefficient_cell(by_key.get((name, shape, coefficient))) for name in sources]
         rows.append(Row(tuple(cells)))
     return Table(
         "table1",
@@ -47,25 +45,19 @@ def table1(tables: Tables, marks: Marks) -> Table:
     )
 
 
-def _coefficient_cell(found: list[dict[str, Any]]) -> Cell:
-    if not found:
+def _coefficient_cell(row: Coefficient | None) -> Cell:
+    if row is None:
         return Cell("–", tone="mute")
-    record = found[0]
-    value = number(record["value"])
-    if value is None:
-        return Cell("–", tone="mute", note=str(record["note"] or "") or wording.status(str(record["status"])))
-    low, high = number(record["low"]), number(record["high"])
-    kind, spread = str(record["spread_kind"]), number(record["spread"])
+    if row.value is None:
+        return Cell("–", tone="mute", note=row.note or wording.status(row.status))
     notes = []
-    if kind == "sd" and spread is not None:
-        notes.append(f"sd {_percent(spread)}")
-    elif low is not None and high is not None:
-        notes.append(f"{_percent(low)} to {_percent(high)}")
-    ci = number(record["ci_low"]), number(record["ci_high"])
-    if ci[0] is not None and ci[1] is not None:
-        level = 100.0 * (number(record["ci_level"]) or 0.95)
-        notes.append(f"{level:.0f} % CI {_percent(ci[0])} to {_percent(ci[1])}")
-    return Cell(_percent(value), sort=value, note="; ".join(notes))
+    if row.spread_kind == "sd" and row.spread is not None:
+        notes.append(f"sd {_percent(row.spread)}")
+    elif row.low is not None and row.high is not None:
+        notes.append(f"{_percent(row.low)} to {_percent(row.high)}")
+    if row.ci_low is not None and row.ci_high is not None:
+        notes.append(f"{100.0 * row.ci_level:.0f} % CI {_percent(row.ci_low)} to {_percent(row.ci_high)}")
+    return Cell(_percent(row.value), sort=row.value, note="; ".join(notes))
 
 
 def _percent(value: float) -> str:
@@ -75,25 +67,22 @@ def _percent(value: float) -> str:
 def differences_table(tables: Tables, marks: Marks) -> Table:
     """Return whether two sources' coefficients differ significantly."""
     rows = []
-    for record in records(tables.regression_differences):
-        significant = str(record["significant"]).lower()
-        known = significant in ("true", "1", "1.0", "false", "0", "0.0")
-        yes = significant in ("true", "1", "1.0")
-        low, high, difference = (number(record[key]) for key in ("ci_low", "ci_high", "difference"))
+    for row in tables.differences:
+        low, high = row.ci_low, row.ci_high
         interval = f"{_percent(low)} to {_percent(high)}" if low is not None and high is not None else "–"
-        outcome = Cell("differ" if yes else "no significant difference", tone="bad" if yes else "")
-        if not known:
-            outcome = Cell("cannot tell", tone="mute")
+        outcome, tone = ("differ", "bad") if row.significant else ("no significant difference", "")
+        if row.significant is None:
+            outcome, tone = "cannot tell", "mute"
         cells = (
-            Cell(str(record["shape"])),
-            Cell(COEFFICIENTS.get(str(record["coefficient"]), str(record["coefficient"]))),
-            Cell(f"{wording.source(str(record['source_a']))} – {wording.source(str(record['source_b']))}"),
-            value_cell(difference, "–" if difference is None else _percent(difference)),
+            Cell(row.shape),
+            Cell(COEFFICIENTS.get(row.coefficient, row.coefficient)),
+            Cell(f"{wording.source(row.source_a)} – {wording.source(row.source_b)}"),
+            value_cell(row.difference, "–" if row.difference is None else _percent(row.difference)),
             value_cell(low, interval),
-            value_cell(number(record["p_value"]), wording.digits(number(record["p_value"]), 2)),
-            Cell(outcome.text, tone=outcome.tone, note=str(record["note"] or "")),
+            value_cell(row.p_value, wording.digits(row.p_value, 2)),
+            Cell(outcome, tone=tone, note=row.note),  # type: ignore[arg-type]
         )
-        rows.append(Row(cells, marks.of(record["assumed"])))
+        rows.append(Row(cells, marks.of(row.assumed)))
     columns = (
         Column("Block"),
         Column("Coefficient"),

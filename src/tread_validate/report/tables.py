@@ -1,91 +1,100 @@
-"""The comparison's tables, read back with a check of their columns."""
+"""The comparison's tables as rows, and free tables whose columns the report does not know."""
 
 from __future__ import annotations
 
 import io
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from ..compare.tables import (
+    AssumedRow,
+    CaseRow,
+    ClaimRow,
+    Coefficient,
+    Difference,
+    Ensemble,
+    MetricRow,
+    PeakRow,
+    PublishedRow,
+    Residual,
+    Sensitivity,
+    read_rows,
+)  # fmt: skip
 from ..errors import InputError
 from ..files import read_text
 
-COLUMNS: dict[str, tuple[str, ...]] = {
-    "cases": (
-        "case_id", "run", "path", "block", "temperature_degC", "interference_mm", "speed_m_s", "speed_rpm",
-        "creep_percent", "free_rolling", "shape", "assumed",
-    ),
-    "peaks": (
-        "source", "case_id", "shape", "path", "temperature_degC", "interference_mm", "speed_m_s",
-        "peak_normal_force_N", "status", "assumed",
-    ),
-    "errors": (
-        "case_id", "quantity", "metric", "reference_source", "predicted_source", "reference", "predicted", "unit",
-        "error", "error_type", "reference_uncertainty", "tolerance", "passed", "verdict", "status", "note", "assumed",
-    ),
-    "ensemble": (
-        "group", "quantity", "metric", "reference_source", "predicted_source", "unit", "error_type", "cases",
-        "compared", "passed", "mean_abs_error", "largest_abs_error", "largest_case_id", "bias", "model_scatter",
-        "total_scatter", "reference_scatter", "status", "note", "assumed",
-    ),
-    "regression": (
-        "source", "shape", "coefficient", "set", "value", "unit", "spread", "spread_kind", "low", "high", "ci_low",
-        "ci_high", "ci_level", "n", "status", "note", "assumed",
-    ),
-    "regression_differences": (
-        "shape", "coefficient", "source_a", "source_b", "difference", "unit", "ci_low", "ci_high", "p_value",
-        "significant", "status", "note", "assumed",
-    ),
-    "regression_residuals": (
-        "source", "shape", "coefficient", "set", "case_id", "x", "x_unit", "residual_percent", "assumed",
-    ),
-    "claims": (
-        "claim_id", "kind", "section", "statement", "quantity", "unit", "published", "published_low", "published_high",
-        "source", "computed", "error", "error_type", "verdict", "status", "note", "assumed",
-    ),
-    "published": ("id", "quantity", "value", "unit", "section", "statement", "comparability", "comparison"),
-    "assumed": ("input", "origin", "source", "cases"),
-}  # fmt: skip
-OPTIONAL: dict[str, tuple[str, ...]] = {
-    "sensitivity": ("metric", "quantity", "case_id", "variation", "samples", "value", "change"),
-}
+Pair = tuple[str, str]
+"""Predicted source and reference source."""
 
 
 @dataclass(frozen=True)
 class Tables:
-    """Every table of one comparison; text columns hold empty strings, never NaN, where nothing is written."""
+    """Every table of one comparison."""
 
-    cases: pd.DataFrame
-    peaks: pd.DataFrame
-    errors: pd.DataFrame
-    ensemble: pd.DataFrame
-    regression: pd.DataFrame
-    regression_differences: pd.DataFrame
-    regression_residuals: pd.DataFrame
-    claims: pd.DataFrame
-    published: pd.DataFrame
-    assumed: pd.DataFrame
-    sensitivity: pd.DataFrame
+    cases: tuple[CaseRow, ...]
+    peaks: tuple[PeakRow, ...]
+    errors: tuple[MetricRow, ...]
+    ensemble: tuple[Ensemble, ...]
+    regression: tuple[Coefficient, ...]
+    differences: tuple[Difference, ...]
+    residuals: tuple[Residual, ...]
+    claims: tuple[ClaimRow, ...]
+    published: tuple[PublishedRow, ...]
+    assumed: tuple[AssumedRow, ...]
+    sensitivity: tuple[Sensitivity, ...]
     provenance: dict[str, Any]
     folder: Path
 
     def sources(self, kind: str) -> list[str]:
         """Return the sources of `kind` (``spring``, ``fe`` or ``rig``) that have runs, in the order of the peaks."""
-        names = dict.fromkeys(str(name) for name in self.peaks["source"])
+        names = dict.fromkeys(row.source for row in self.peaks)
         return [name for name in names if name.split(":")[0] == kind and not name.endswith(":published")]
+
+    def statistics(self, pair: Pair, quantity: str, metric: str = "scalar", group: str = "all") -> Ensemble | None:
+        """Return one row of the statistics, None where there is none."""
+        for row in self.ensemble:
+            if (row.group, row.quantity, row.metric) == (group, quantity, metric) and pair_of(row) == pair:
+                return row
+        return None
+
+    def of_pair(self, pair: Pair) -> list[MetricRow]:
+        """Return the errors of one source against one other."""
+        return [row for row in self.errors if pair_of(row) == pair]
+
+
+def pair_of(row: MetricRow | Ensemble) -> Pair:
+    """Return who is compared with whom."""
+    return row.predicted_source, row.reference_source
+
+
+def pairs_of(rows: Iterable[MetricRow | Ensemble]) -> list[Pair]:
+    """Return every pair once, in order of appearance."""
+    return list(dict.fromkeys(map(pair_of, rows)))
 
 
 def read_tables(folder: Path | str) -> Tables:
-    """Read ``results/tables``; a missing table or column is an `InputError`."""
+    """Read ``results/tables``; a missing table, another column or a cell of another kind is an `InputError`."""
     place = Path(folder)
-    frames = {name: read_table(place / f"{name}.csv", columns) for name, columns in COLUMNS.items()}
-    for name, columns in OPTIONAL.items():
-        path = place / f"{name}.csv"
-        frames[name] = read_table(path, columns) if path.is_file() else pd.DataFrame(columns=list(columns))
-    return Tables(**frames, provenance=_provenance(place / "provenance.json"), folder=place)
+    return Tables(
+        cases=read_rows(place / "cases.csv", CaseRow),
+        peaks=read_rows(place / "peaks.csv", PeakRow),
+        errors=read_rows(place / "errors.csv", MetricRow),
+        ensemble=read_rows(place / "ensemble.csv", Ensemble),
+        regression=read_rows(place / "regression.csv", Coefficient),
+        differences=read_rows(place / "regression_differences.csv", Difference),
+        residuals=read_rows(place / "regression_residuals.csv", Residual),
+        claims=read_rows(place / "claims.csv", ClaimRow),
+        published=read_rows(place / "published.csv", PublishedRow),
+        assumed=read_rows(place / "assumed.csv", AssumedRow),
+        sensitivity=read_rows(place / "sensitivity.csv", Sensitivity),
+        provenance=_provenance(place / "provenance.json"),
+        folder=place,
+    )
 
 
 def read_table(path: Path, columns: tuple[str, ...]) -> pd.DataFrame:

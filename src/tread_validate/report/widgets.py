@@ -12,7 +12,7 @@ from .content import Mark, Widget
 from .histories import pack, samples_each
 from .marks import Marks, by_origin
 from .palette import Look
-from .tables import Tables, number
+from .tables import Tables
 
 # parts of a score that the browser leaves to the CSV tables
 PARTS = ("iso18571_corridor", "iso18571_phase", "iso18571_magnitude", "iso18571_slope")
@@ -77,42 +77,34 @@ def _mark(mark: Mark) -> dict[str, str]:
 
 def _states(tables: Tables) -> dict[str, str]:
     found: dict[str, list[str]] = {}
-    for row in tables.peaks.itertuples(index=False):
-        if str(row.source).startswith("fe:") and row.source != "fe:published":
-            found.setdefault(str(row.case_id), []).append(
-                f"{wording.source(str(row.source))}: {wording.status(str(row.status))}"
-            )
+    for row in tables.peaks:
+        if row.source.startswith("fe:") and row.source != "fe:published":
+            found.setdefault(row.case_id, []).append(f"{wording.source(row.source)}: {wording.status(row.status)}")
     return {case: "; ".join(texts) for case, texts in found.items()}
 
 
 def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
     found: dict[str, list[dict[str, str]]] = {}
-    columns = list(tables.errors.columns)
-    for values in tables.errors.itertuples(index=False, name=None):
-        record = dict(zip(columns, values, strict=True))
-        metric = str(record["metric"])
-        if metric in PARTS:
+    for row in tables.errors:
+        if row.metric in PARTS:
             continue
-        unit = wording.unit(str(record["unit"]))
-        reference, predicted = number(record["reference"]), number(record["predicted"])
-        verdict, status, note = str(record["verdict"] or ""), str(record["status"]), str(record["note"] or "")
-        compared = number(record["error"]) is not None
-        if not compared and reference is None and predicted is None:
+        unit = wording.unit(row.unit)
+        if row.error is None and row.reference is None and row.predicted is None:
             continue
         # a run that cannot be compared at all says so once, above its values
-        alike = not compared and status not in ("current", "undefined", "no_contact")
-        why = "; ".join(part for part in (wording.status(status), note) if part) if alike else ""
-        found.setdefault(str(record["case_id"]), []).append(
+        alike = row.error is None and row.status not in ("current", "undefined", "no_contact")
+        why = "; ".join(part for part in (wording.status(row.status), row.note) if part) if alike else ""
+        found.setdefault(row.case_id, []).append(
             {
-                "q": wording.quantity(str(record["quantity"]), metric) + (f", {unit}" if unit else ""),
-                "p": wording.source(str(record["predicted_source"])),
-                "r": wording.source(str(record["reference_source"])),
-                "a": "–" if reference is None else wording.digits(reference, 4),
-                "b": "–" if predicted is None else wording.digits(predicted, 4),
-                "e": wording.error(number(record["error"]), str(record["error_type"]), metric=metric),
-                "v": "–" if alike else wording.verdict(verdict) if verdict else "",
-                "tone": "" if alike else wording.TONES.get(verdict, ""),
-                "note": "" if alike else note,
+                "q": wording.quantity(row.quantity, row.metric) + (f", {unit}" if unit else ""),
+                "p": wording.source(row.predicted_source),
+                "r": wording.source(row.reference_source),
+                "a": wording.digits(row.reference, 4),
+                "b": wording.digits(row.predicted, 4),
+                "e": wording.error(row.error, row.error_type, metric=row.metric),
+                "v": "–" if alike else wording.verdict(row.verdict),
+                "tone": "" if alike else wording.TONES.get(row.verdict, ""),
+                "note": "" if alike else row.note,
                 "why": why,
             }
         )

@@ -4,35 +4,11 @@ from __future__ import annotations
 
 import math
 
+from ..compare.quantities import HISTORIES, HISTORY_METRICS, SCALARS
 from .content import Tone
 
-QUANTITIES = {
-    "peak_normal_force": "Peak normal force",
-    "peak_positive_tangential_force": "Peak T towards leading edge",
-    "peak_negative_tangential_force": "Peak T towards trailing edge",
-    "normal_impulse": "Normal impulse",
-    "net_tangential_impulse": "Net tangential impulse",
-    "contact_duration": "Contact duration",
-    "time_of_peak_normal_force": "Time of normal peak",
-    "tangential_to_normal_ratio": "Peak ratio |T|/N",
-    "late_sign_change": "T changes sign again at exit",
-    "slipping_share": "Share of contact that slips",
-    "peak_pressure": "Peak pressure",
-    "normal_force": "Normal force history",
-    "tangential_force": "Tangential force history",
-}
-METRICS = {
-    "scalar": "",
-    "relative_rms": "relative RMS error",
-    "sprague_geers_m": "Sprague-Geers magnitude M",
-    "sprague_geers_p": "Sprague-Geers phase P",
-    "sprague_geers_c": "Sprague-Geers combined C",
-    "iso18571_r": "ISO/TS 18571 score R",
-    "iso18571_corridor": "ISO/TS 18571 corridor",
-    "iso18571_phase": "ISO/TS 18571 phase",
-    "iso18571_magnitude": "ISO/TS 18571 magnitude",
-    "iso18571_slope": "ISO/TS 18571 slope",
-}
+QUANTITIES = {item.name: item.label for item in SCALARS} | {"peak_pressure": "Peak pressure"} | HISTORIES
+METRICS = {"scalar": ""} | {item.name: item.label for item in HISTORY_METRICS}
 SIGNED = ("scalar", "sprague_geers_m")
 GROUPS = {
     "all": "all cases",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -37,7 +38,7 @@ def test_every_case_is_in_one_cell_of_one_grid(tables: Tables) -> None:
     """Exact: the heat maps' grids hold each case once and nothing else."""
     views = case_views(tables.cases)
     cells = [view.case_id for facet in facets(views) for _, row in facet.rows for view in row if view is not None]
-    assert Counter(cells) == Counter(tables.cases["case_id"])
+    assert Counter(cells) == Counter(row.case_id for row in tables.cases)
 
 
 def test_only_factors_that_vary_can_be_chosen(tables: Tables) -> None:
@@ -68,12 +69,13 @@ def test_summary_counts_verdicts_and_gives_bias_and_scatter(tables: Tables, mark
 
 def test_summary_does_not_claim_agreement_where_nothing_was_compared(inputs: Any, marks: Marks) -> None:
     """Exact: without a single current reference the answer is `cannot tell`, never `agrees` and never a zero."""
-    empty = read_tables(inputs.tables)
-    for name in ("mean_abs_error", "largest_abs_error", "bias", "model_scatter"):
-        empty.ensemble[name] = float("nan")
-    empty.ensemble["compared"] = 0
-    empty.ensemble["status"] = "missing"
-    empty.errors["verdict"] = "cannot tell"
+    tables = read_tables(inputs.tables)
+    blank = {"mean_abs_error": None, "largest_abs_error": None, "bias": None, "model_scatter": None}
+    empty = replace(
+        tables,
+        ensemble=tuple(replace(row, **blank, compared=0, status="missing") for row in tables.ensemble),
+        errors=tuple(replace(row, error=None, verdict="cannot tell") for row in tables.errors),
+    )
     lines = {line.question: line for line in summary(empty, marks, None).items}
     assert not any("does it give the forces" in question for question in lines)
     first = lines["What could not be compared?"]

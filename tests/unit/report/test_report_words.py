@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tread_validate.compare.tables import AssumedRow
 from tread_validate.report import wording
 from tread_validate.report.marks import Marks, in_words
 
@@ -53,12 +53,7 @@ def test_verdict_carries_a_symbol_beside_its_colour() -> None:
 
 def test_marks_follow_the_list_of_assumptions() -> None:
     """Exact: codes in the list's order, each once, an input that the list has not is added rather than dropped."""
-    listed = pd.DataFrame(
-        [
-            {"input": "compound c", "origin": "synthetic", "source": "s"},
-            {"input": "path p", "origin": "assumed", "source": "t"},
-        ]
-    )
+    listed = [AssumedRow("compound c", "synthetic", "s", 2), AssumedRow("path p", "assumed", "t", 2)]
     marks = Marks(listed)
     found = marks.of("path p (assumed); compound c (synthetic)", "path p (assumed)", "block b (assumed)")
     assert [(mark.code, mark.origin) for mark in found] == [("S1", "synthetic"), ("A2", "assumed"), ("A3", "assumed")]

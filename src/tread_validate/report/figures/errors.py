@@ -14,7 +14,7 @@ from .. import wording
 from ..cases import CaseView, facets
 from ..content import Mark
 from ..palette import Look
-from ..tables import Tables, number
+from ..tables import Tables, pair_of, pairs_of
 from .style import WIDTH, Drawn, draw
 
 RAMP = LinearSegmentedColormap.from_list("error", ["#2f7fb5", "#ffffff", "#d9662b"])
@@ -24,13 +24,7 @@ def heat(
     folder: Path, tables: Tables, views: tuple[CaseView, ...], pair: tuple[str, str], marks: tuple[Mark, ...]
 ) -> Drawn:
     """Draw the peak normal force's error of one model over the factor grid."""
-    frame = tables.errors
-    own = frame[
-        (frame["predicted_source"] == pair[0])
-        & (frame["reference_source"] == pair[1])
-        & (frame["quantity"] == "peak_normal_force")
-    ]
-    values = dict(zip(own["case_id"], map(number, own["error"]), strict=True))
+    values = {row.case_id: row.error for row in tables.of_pair(pair) if row.quantity == "peak_normal_force"}
     known = [abs(value) for value in values.values() if value is not None]
     names = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
     if not known:
@@ -71,16 +65,13 @@ def heat(
 
 def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: str, marks: tuple[Mark, ...]) -> Drawn:
     """Draw predicted against reference with the ensemble's bias and two standard deviations."""
-    frame = tables.errors
-    own = frame[(frame["metric"] == "scalar") & (frame["quantity"] == quantity)]
-    pairs = list(dict.fromkeys(zip(own["predicted_source"], own["reference_source"], strict=True)))
+    own = [row for row in tables.errors if (row.quantity, row.metric) == (quantity, "scalar")]
     points: dict[tuple[str, str], list[tuple[float, float]]] = {}
-    for pair in pairs:
-        rows = own[(own["predicted_source"] == pair[0]) & (own["reference_source"] == pair[1])]
-        both = zip(map(number, rows["reference"]), map(number, rows["predicted"]), strict=True)
+    for pair in pairs_of(own):
+        both = [(row.reference, row.predicted) for row in own if pair_of(row) == pair]
         found = [(abs(x), abs(y)) for x, y in both if x and y and (x > 0) == (y > 0)]
         if found:
-            points[(str(pair[0]), str(pair[1]))] = found
+            points[pair] = found
     if not points:
         return Drawn(None, f"{wording.quantity(quantity)}: no current reference to compare with.")
 
@@ -90,15 +81,8 @@ def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: s
         axes.plot(ends, ends, color="#000", lw=0.9)
         for pair, found in points.items():
             look = looks[pair[0]]
-            stats = tables.ensemble[
-                (tables.ensemble["group"] == "all")
-                & (tables.ensemble["quantity"] == quantity)
-                & (tables.ensemble["metric"] == "scalar")
-                & (tables.ensemble["predicted_source"] == pair[0])
-                & (tables.ensemble["reference_source"] == pair[1])
-            ]
-            bias = number(stats["bias"].iloc[0]) if len(stats) else None
-            sigma = number(stats["model_scatter"].iloc[0]) if len(stats) else None
+            stats = tables.statistics(pair, quantity)
+            bias, sigma = (None, None) if stats is None else (stats.bias, stats.model_scatter)
             if bias is not None:
                 axes.plot(ends, bias * ends, color=look.color, lw=1.2, ls="--")
                 if sigma is not None:
@@ -109,7 +93,7 @@ def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: s
             x, y = np.array(found).T
             label = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
             axes.plot(x, y, look.marker, ms=4, color=look.color, mec="white", mew=0.5, label=label)
-        unit = str(own["unit"].iloc[0])
+        unit = own[0].unit
         axes.set(xscale="log", yscale="log", xlabel=f"reference, {unit}", ylabel=f"predicted, {unit}")
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if ends[1] < 50.0 * ends[0] else (1.0,)))

@@ -14,7 +14,7 @@ from ..cases import CaseView
 from ..content import Mark
 from ..histories import thin
 from ..palette import BLUE, GREEN, VERMILION, Look
-from ..tables import Tables, number
+from ..tables import Tables
 from .style import Drawn, draw
 
 
@@ -60,10 +60,7 @@ def peaks_panel(
     rig: Mapping[str, RigPeak],
 ) -> Drawn:
     """Draw peak normal force against speed for one shape and temperature: one colour per interference."""
-    peaks = {
-        (str(row.source), str(row.case_id)): number(row.peak_normal_force_N)
-        for row in tables.peaks.itertuples(index=False)
-    }
+    peaks = {(row.source, row.case_id): row.peak_normal_force_N for row in tables.peaks}
     depths = list(dict.fromkeys(view.levels["interference_mm"] for view in chosen))
     colors = dict(zip(depths, (GREEN, BLUE, VERMILION, *["#57606a"] * len(depths)), strict=False))
 
@@ -71,11 +68,11 @@ def peaks_panel(
         for source, look in looks.items():
             for depth in depths:
                 points = [
-                    (number(view.row["speed_m_s"]), peaks.get((source, view.case_id)))
+                    (view.row.speed_m_s, peaks.get((source, view.case_id)))
                     for view in chosen
                     if view.levels["interference_mm"] == depth
                 ]
-                known = sorted((x, y) for x, y in points if x is not None and y is not None)
+                known = sorted((x, y) for x, y in points if y is not None)
                 if known:
                     axes.plot(
                         [x for x, _ in known],
@@ -87,8 +84,8 @@ def peaks_panel(
                         color=colors[depth],
                     )
         for view in chosen:
-            measured, speed = rig.get(view.case_id), number(view.row["speed_m_s"])
-            if measured is not None and speed is not None:
+            measured, speed = rig.get(view.case_id), view.row.speed_m_s
+            if measured is not None:
                 color = colors[view.levels["interference_mm"]]
                 axes.plot([speed, speed], [measured.lowest, measured.highest], "_-", color=color, lw=1.0, ms=6)
         for depth in depths:

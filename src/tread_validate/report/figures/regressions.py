@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from ...compare.tables import Coefficient
 from .. import wording
 from ..content import Mark
 from ..palette import BLACK, Look
-from ..tables import Tables, number, records
+from ..tables import Tables
 from .style import HEIGHT, WIDTH, Drawn, draw
 
 NAMES = {"a_v": "a_v, % per m/s", "a_theta": "a_θ, % per °C"}
@@ -20,30 +20,28 @@ NAMES = {"a_v": "a_v, % per m/s", "a_theta": "a_θ, % per °C"}
 
 def coefficients(folder: Path, tables: Tables, sources: list[str], coefficient: str, marks: tuple[Mark, ...]) -> Drawn:
     """Draw one coefficient of every source and shape with its spread (thick) and confidence interval (thin)."""
-    frame = tables.regression[(tables.regression["set"] == "mean") & (tables.regression["coefficient"] == coefficient)]
-    points: list[tuple[str, float, dict[str, Any]]] = []
+    points: list[tuple[str, float, Coefficient]] = []
     for source in sources:
-        own = frame[frame["source"] == source].sort_values("shape", ascending=False, kind="stable")
-        for record in records(own):
-            value = number(record["value"])
-            if value is not None:
-                points.append((source, value, record))
+        own = [
+            row for row in tables.regression if (row.source, row.set, row.coefficient) == (source, "mean", coefficient)
+        ]
+        own.sort(key=lambda row: row.shape, reverse=True)
+        points += [(source, row.value, row) for row in own if row.value is not None]
     if not points:
         return Drawn(None, f"No values of {NAMES[coefficient].split(',')[0]} to draw.")
 
     def paint(axes: Axes) -> None:
         labels = []
-        for place, (source, value, record) in enumerate(points):
+        for place, (source, value, row) in enumerate(points):
             own = marks_color(source)
-            low, high = number(record["low"]), number(record["high"])
-            ci = number(record["ci_low"]), number(record["ci_high"])
-            if ci[0] is not None and ci[1] is not None:
-                axes.plot([100 * ci[0], 100 * ci[1]], [place, place], lw=1.0, color=own)
+            low, high = row.low, row.high
+            if row.ci_low is not None and row.ci_high is not None:
+                axes.plot([100 * row.ci_low, 100 * row.ci_high], [place, place], lw=1.0, color=own)
             if low is not None and high is not None:
                 axes.plot([100 * low, 100 * high], [place, place], lw=3.5, color=own, alpha=0.45, solid_capstyle="butt")
-            marker = "s" if record["shape"] == "rectangle" else "D"
+            marker = "s" if row.shape == "rectangle" else "D"
             axes.plot(100 * value, place, marker, ms=5, color=own)
-            labels.append(f"{wording.source(source)}, {record['shape']}")
+            labels.append(f"{wording.source(source)}, {row.shape}")
         axes.set_yticks(np.arange(len(labels)), labels, fontsize=7.0)
         axes.invert_yaxis()
         axes.axvline(0.0, color="#57606a", lw=0.7)
@@ -65,21 +63,20 @@ def residuals(
     folder: Path, tables: Tables, looks: Mapping[str, Look], coefficient: str, marks: tuple[Mark, ...]
 ) -> Drawn:
     """Draw the residuals of the regressions in per cent of the fitted force."""
-    frame = tables.regression_residuals
-    frame = frame[frame["coefficient"] == coefficient]
-    if not len(frame):
+    rows = [row for row in tables.residuals if row.coefficient == coefficient and row.residual_percent is not None]
+    if not rows:
         return Drawn(None, f"No residuals of {NAMES[coefficient].split(',')[0]} to draw.")
-    sources = [name for name in dict.fromkeys(frame["source"]) if name in looks]
+    sources = [name for name in dict.fromkeys(row.source for row in rows) if name in looks]
 
     def paint(axes: Axes) -> None:
-        span = float(frame["x"].max() - frame["x"].min()) or 1.0
+        span = max(row.x for row in rows) - min(row.x for row in rows) or 1.0
         for place, source in enumerate(sources):
-            own = frame[frame["source"] == source]
+            own = [row for row in rows if row.source == source]
             shift = 0.012 * span * (place - 0.5 * (len(sources) - 1))  # side by side, so that none hides another
             look = looks[source]
             axes.plot(
-                own["x"] + shift,
-                own["residual_percent"],
+                [row.x + shift for row in own],
+                [row.residual_percent or 0.0 for row in own],
                 look.marker,
                 ms=3.5,
                 color=look.color,
@@ -87,7 +84,7 @@ def residuals(
                 label=wording.source(source),
             )
         axes.axhline(0.0, color="#57606a", lw=0.7)
-        unit = {"m/s": "surface speed, m/s", "degC": "temperature, °C"}.get(str(frame["x_unit"].iloc[0]), "x")
+        unit = {"m/s": "surface speed, m/s", "degC": "temperature, °C"}.get(rows[0].x_unit, "x")
         axes.set(xlabel=unit, ylabel="residual, % of fitted force")
         axes.legend()
 

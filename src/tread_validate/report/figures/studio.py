@@ -17,7 +17,7 @@ from ..content import Mark
 from ..marks import Marks
 from ..palette import Look
 from ..table1 import regression_sources
-from ..tables import Tables
+from ..tables import Tables, pairs_of
 from . import contact, errors, forces, geometry, material, regressions
 from .style import Drawn
 
@@ -39,29 +39,24 @@ class Studio:
 
     def regressions(self) -> tuple[Drawn, ...]:
         """Draw coefficients and residuals."""
-        frame = self.tables.regression
         found = []
         for name in ("a_v", "a_theta"):
-            own = self.marks.of_column(frame.loc[frame["coefficient"] == name, "assumed"])
+            own = self.marks.of_column(row.assumed for row in self.tables.regression if row.coefficient == name)
             found.append(regressions.coefficients(self.folder, self.tables, regression_sources(self.tables), name, own))
         for name in ("a_v", "a_theta"):
-            rows = self.tables.regression_residuals
-            own = self.marks.of_column(rows.loc[rows["coefficient"] == name, "assumed"])
+            own = self.marks.of_column(row.assumed for row in self.tables.residuals if row.coefficient == name)
             found.append(regressions.residuals(self.folder, self.tables, self.looks, name, own))
         return tuple(found)
 
     def heat(self) -> tuple[Drawn, ...]:
         """Draw the still heat map of every model."""
-        frame = self.tables.errors
-        marks = self.marks.of_column(frame["assumed"])
-        pairs = dict.fromkeys(
-            zip(map(str, frame["predicted_source"]), map(str, frame["reference_source"]), strict=True)
-        )
-        return tuple(errors.heat(self.folder, self.tables, self.views, pair, marks) for pair in pairs)
+        rows = self.tables.errors
+        marks = self.marks.of_column(row.assumed for row in rows)
+        return tuple(errors.heat(self.folder, self.tables, self.views, pair, marks) for pair in pairs_of(rows))
 
     def scatter(self) -> tuple[Drawn, ...]:
         """Draw the still scatter plots."""
-        marks = self.marks.of_column(self.tables.errors["assumed"])
+        marks = self.marks.of_column(row.assumed for row in self.tables.errors)
         return tuple(
             errors.scatter(self.folder, self.tables, self.looks, quantity, marks)
             for quantity in ("peak_normal_force", "peak_positive_tangential_force")
@@ -73,7 +68,7 @@ class Studio:
 
     def _figure5(self) -> tuple[Drawn, ...]:
         """Parallelogram at 300 rpm and 0.2 mm, at both temperatures: the case nearest to that for each."""
-        rig = [view for view in self.views if view.row["path"] in self._paths(Rig)]
+        rig = [view for view in self.views if view.row.path in self._paths(Rig)]
         if not rig:
             return ()
         wanted = {"shape": "parallelogram", "speed_rpm": 300.0, "interference_mm": 0.2}
@@ -81,7 +76,7 @@ class Studio:
         chosen = [
             max(
                 (view for view in rig if view.levels["temperature_degC"] == level),
-                key=lambda view: sum(_same(view.row.get(key), value) for key, value in wanted.items()),
+                key=lambda view: sum(_same(getattr(view.row, key), value) for key, value in wanted.items()),
             )
             for level in temperatures
         ]
@@ -96,8 +91,8 @@ class Studio:
         simplified = self._paths(None) - self._paths(Rig) - measured
         found: list[Drawn] = []
         for names, number in ((measured, "14"), (simplified, "16")):
-            for view in [view for view in self.views if view.row["path"] in names][:1]:
-                key = f"belt-histories-{view.row['path']}".replace("_", "-")
+            for view in [view for view in self.views if view.row.path in names][:1]:
+                key = f"belt-histories-{view.row.path}".replace("_", "-")
                 found += self._pair(key, view, f"As the paper's Fig. {number}.")
         return tuple(found)
 
@@ -115,10 +110,10 @@ class Studio:
         )
 
     def _peaks(self) -> tuple[Drawn, ...]:
-        rig = [view for view in self.views if view.row["path"] in self._paths(Rig)]
+        rig = [view for view in self.views if view.row.path in self._paths(Rig)]
         grids: dict[tuple[str, str], list[CaseView]] = {}
         for view in rig:
-            grids.setdefault((str(view.row["shape"]), view.levels["temperature_degC"]), []).append(view)
+            grids.setdefault((view.row.shape, view.levels["temperature_degC"]), []).append(view)
         return tuple(
             forces.peaks_panel(
                 self.folder,
@@ -156,8 +151,8 @@ class Studio:
     def material(self) -> tuple[Drawn, ...]:
         """Draw moduli and friction of everything that the cases use."""
         model, root = self.study.model, self.study.root
-        compounds = dict.fromkeys(str(view.row.get("compound", "")) for view in self.views)
-        laws = dict.fromkeys(str(view.row.get("friction", "")) for view in self.views)
+        compounds = dict.fromkeys(view.row.compound for view in self.views)
+        laws = dict.fromkeys(view.row.friction for view in self.views)
         found = [
             material.moduli(self.folder, name, model.compounds[name], root, self.input_marks(f"compound {name}"))
             for name in compounds
@@ -203,7 +198,7 @@ class Studio:
 
     def _one_per_path(self) -> dict[str, Case]:
         labels = {view.case_id: view.label for view in self.views}
-        creeps = {view.case_id: view.row["creep_percent"] for view in self.views}
+        creeps = {view.case_id: view.row.creep_percent for view in self.views}
         chosen: dict[tuple[str, str], Case] = {}
         for case in self._cases():
             middle = chosen.get((case.path_name, case.block_name))
