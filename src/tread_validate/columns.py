@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from .bounds import first_beyond
 from .errors import InputError, one_line
 from .files import read_text
 
@@ -94,13 +95,23 @@ def read_columns(path: Path | str, needed: Sequence[str], optional: Iterable[str
     line = np.array([number for number, _ in rows], dtype=np.int64)
     values = _quickly(lines, line, separator, header, wanted)
     if values is not None:
+        _check_bounds(path, values, line)
         return Columns(values, line, str(path), comments)
     values = {}
     decimal: list[str] = []
     for name in wanted:
         column = header.index(name)
         values[name] = np.array([_number(path, number, name, cells[column], gaps, decimal) for number, cells in rows])
+    _check_bounds(path, values, line)
     return Columns(values, line, str(path), comments)
+
+
+def _check_bounds(path: Path | str, values: Mapping[str, NDArray[np.float64]], line: NDArray[np.int64]) -> None:
+    for name, column in values.items():
+        beyond = first_beyond(column, name)
+        if beyond is not None:
+            row, expected = beyond
+            raise InputError(f"{path}:{line[row]}: {name}", f"{column[row]:g}", expected)
 
 
 def _quickly(

@@ -1,10 +1,12 @@
-"""The one family of exceptions; only the command line turns them into exit codes."""
+"""The one family of exceptions, and the exit code that the command line ends with for each (docs/exit_codes.md)."""
 
 from __future__ import annotations
 
 
 class TreadValidateError(Exception):
     """Base of every error that the package raises on purpose."""
+
+    exit_code = 2
 
 
 class InputError(TreadValidateError):
@@ -28,11 +30,21 @@ class InputError(TreadValidateError):
 
 
 class CheckFailedError(TreadValidateError):
-    """A check ran and its answer is no (exit code 1)."""
+    """A check ran and its answer is no."""
+
+    exit_code = 1
+
+
+class NothingComparedError(TreadValidateError):
+    """A comparison ran and found nothing that could be compared."""
+
+    exit_code = 3
 
 
 class EngineError(TreadValidateError):
-    """A solver, compiler or other engine failed on valid input (exit code 3)."""
+    """A solver, compiler or other tool is missing, failed, or took too long."""
+
+    exit_code = 3
 
 
 def one_line(text: str, limit: int = 400) -> str:

@@ -7,9 +7,12 @@ synthetic input can be marked wherever it is shown.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, StringConstraints
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, StringConstraints, ValidationInfo, field_validator
+from pydantic_core import PydanticCustomError
+
+from .bounds import bound_of
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,22 @@ class Strict(BaseModel):
     """A frozen model that refuses keys it does not know."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    @field_validator("*", mode="after")
+    @classmethod
+    def _within_bounds(cls, value: Any, info: ValidationInfo) -> Any:
+        """Refuse numbers that the quantity, known by the field's name and unit, cannot take."""
+        bound = bound_of(info.field_name or "")
+        if bound is not None and not all(map(bound.holds, _numbers(value))):
+            raise PydanticCustomError("out_of_bounds", "{bound}", {"bound": str(bound)})
+        return value
+
+
+def _numbers(value: object) -> list[float]:
+    """Return the numbers in a value: itself, or those in its lists."""
+    if isinstance(value, tuple | list):
+        return [number for item in value for number in _numbers(item)]
+    return [float(value)] if isinstance(value, int | float) and not isinstance(value, bool) else []
 
 
 class Sourced(Strict):

@@ -5,16 +5,37 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from .errors import InputError
+
+_INPUTS: dict[str, Path] = {}  # what the running command reads, by the option that names it
+
+
+@contextlib.contextmanager
+def protected(inputs: Mapping[str, Path]) -> Iterator[None]:
+    """Refuse, while the block runs, to write over these files, by whatever name or link."""
+    before = dict(_INPUTS)
+    _INPUTS.update(inputs)
+    try:
+        yield
+    finally:
+        _INPUTS.clear()
+        _INPUTS.update(before)
+
+
+def _refuse_input(target: Path) -> None:
+    for name, file in _INPUTS.items():
+        if target.is_file() and file.is_file() and target.samefile(file):
+            raise InputError(target, f"what is read as {name}", "another file to write (folder or name)")
 
 
 @contextlib.contextmanager
 def atomic_path(path: Path | str) -> Iterator[Path]:
     """Yield a temporary path beside `path`; it replaces `path` only when the block ends without an error."""
     target = Path(path)
+    _refuse_input(target)
     target.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
     os.close(handle)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .bounds import first_beyond
 from .errors import InputError, one_line
 from .files import read_text, write_text
 from .provenance import sha256_text
@@ -232,6 +233,11 @@ def check(history: History, where: str) -> None:
         if not np.all(np.isfinite(values)):
             row = int(np.argmin(np.isfinite(values)))
             raise InputError(f"{where}: {name}, sample {row + 1}", values[row], "a finite number")
+    for name, column in zip(("time", "normal_force", "tangential_force", "slipping_fraction"), COLUMNS, strict=True):
+        beyond = first_beyond(getattr(history, name), column)
+        if beyond is not None:
+            row, expected = beyond
+            raise InputError(f"{where}: {name}, sample {row + 1}", f"{getattr(history, name)[row]:g}", expected)
     steps = np.diff(history.time)
     if not np.all(steps > 0):
         row = int(np.argmax(steps <= 0)) + 1

@@ -22,7 +22,8 @@ def test_history_reads_back_within_its_printed_digits(tmp_path_factory, forces, 
     """Forces are printed to 1e-5 N, so they come back within half of that."""
     path = tmp_path_factory.mktemp("history") / "h.csv"
     time = 1e-5 * np.arange(len(forces))
-    history = History(time, *forces.T, provenance={"label": label})
+    share = np.clip(np.abs(forces[:, 2]), 0.0, 1.0)
+    history = History(time, forces[:, 0], forces[:, 1], share, provenance={"label": label})
     history.write_csv(path)
     back = History.read_csv(path)
     np.testing.assert_allclose(back.time, time, rtol=0, atol=5.1e-10)

@@ -1,24 +1,28 @@
-"""`tread-validate`: its verbs, and the exit codes they end with.
-
-0 done; 1 the check ran and failed; 2 wrong input; 3 an engine failed.
-"""
+"""`tread-validate`: its verbs, and the exit codes they end with (docs/exit_codes.md)."""
 
 from __future__ import annotations
 
 import importlib
 import os
+import platform
 import sys
+import tempfile
+import traceback
 from collections.abc import Sequence
 from typing import Any
 
 import typer
+from typer.exceptions import TyperException
 
-from ..errors import CheckFailedError, EngineError, InputError, TreadValidateError, one_line
+from ..errors import TreadValidateError, one_line
+from ..files import protected
+from .options import paths_of, refuse_overwriting
 
 # every matrix here is small: threads of the linear algebra library would only wait for each other
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-EXIT_DONE, EXIT_FAILED, EXIT_INPUT, EXIT_ENGINE = 0, 1, 2, 3
+EXIT_DONE, EXIT_INPUT, EXIT_UNEXPECTED = 0, 2, 4  # 1 and 3: see the exceptions
+EXIT_INTERRUPTED = 130  # as shells count an interrupt from the keyboard
 
 # verb -> module under cli/ that holds its `command`; in the order in which a newcomer meets them
 VERBS = {
@@ -62,12 +66,27 @@ class _Verbs(typer.core.TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in VERBS:
             return None
-        module = importlib.import_module(f"tread_validate.cli.{VERBS[cmd_name]}")
-        single = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
-        single.command(name=cmd_name, no_args_is_help=False)(module.command)
-        command = typer.main.get_command(single)
-        command.name = cmd_name
-        return command
+        return verb(cmd_name)
+
+
+def verb(name: str) -> Any:
+    """Return a verb as a command; what it reads cannot be what it writes."""
+    module = importlib.import_module(f"tread_validate.cli.{VERBS[name]}")
+    single = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+    single.command(name=name, no_args_is_help=False)(module.command)
+    command = typer.main.get_command(single)
+    command.name = name
+    inner = command.callback
+    assert inner is not None
+
+    def guarded(**values: Any) -> Any:
+        read, written = paths_of(command, values)
+        refuse_overwriting(read, written)
+        with protected(read):
+            return inner(**values)
+
+    command.callback = guarded
+    return command
 
 
 app = typer.Typer(
@@ -91,22 +110,43 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run one verb and return its exit code; every expected fault is one line on standard error."""
+    """Run one verb and return its exit code; every fault is one line on standard error."""
     try:
-        app(args=list(arguments), prog_name="tread-validate")
-    except SystemExit as stop:
-        return stop.code if isinstance(stop.code, int) else EXIT_DONE
-    except InputError as error:
-        return _say(error, EXIT_INPUT)
-    except CheckFailedError as error:
-        return _say(error, EXIT_FAILED)
-    except EngineError as error:
-        return _say(error, EXIT_ENGINE)
+        code = app(args=list(arguments), prog_name="tread-validate", standalone_mode=False)
+    except TyperException as error:
+        return _say(f"{_told(error)} (--help shows what there is)", EXIT_INPUT)
+    except (typer.Abort, KeyboardInterrupt):
+        return _say("interrupted", EXIT_INTERRUPTED)
     except TreadValidateError as error:
-        return _say(error, EXIT_INPUT)
+        return _say(error, error.exit_code)
+    except BrokenPipeError:  # the reader of our output, such as `head`, has seen enough
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+        return EXIT_DONE
     except OSError as error:
         return _say(f"{error.filename or 'file'}: {error.strerror or error}", EXIT_INPUT)
-    return EXIT_DONE
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else EXIT_DONE
+    except Exception as error:
+        return _say(f"{type(error).__name__}: {one_line(str(error), 160)}; a fault of the program, told in full in "
+                    f"{_log(arguments)}", EXIT_UNEXPECTED)  # fmt: skip
+    return code if isinstance(code, int) else EXIT_DONE
+
+
+def _told(error: TyperException) -> str:
+    return str(error.format_message()) if hasattr(error, "format_message") else str(error)
+
+
+def _log(arguments: Sequence[str]) -> str:
+    """Write the exception being handled to a log file and return its path."""
+    from ..provenance import commit, version
+
+    with tempfile.NamedTemporaryFile(
+        "w", encoding="utf-8", prefix="tread-validate-", suffix=".log", delete=False
+    ) as stream:
+        stream.write(f"tread-validate {version()}, code {commit()}, Python {platform.python_version()}, ")
+        stream.write(f"{platform.platform()}\narguments: {list(arguments)!r}\nfolder: {os.getcwd()}\n")
+        stream.write(traceback.format_exc())
+    return stream.name
 
 
 def _say(message: object, code: int) -> int:

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from .options import number
+
 
 def command(
     deck: Annotated[Path, typer.Argument(help="deck (.inp) of an elastic compound with Coulomb friction")],
@@ -15,7 +17,7 @@ def command(
     increments: Annotated[int, typer.Option("--increments", min=10, max=5000, help="increments of the pass")] = 400,
     folder: Annotated[Path | None, typer.Option("--work", help="keep CalculiX's own files in this folder")] = None,
     executable: Annotated[str, typer.Option("--executable", help="the command")] = "ccx",
-    time_limit: Annotated[float, typer.Option("--time-limit", help="longest time, s")] = 86_400.0,
+    time_limit: Annotated[float, number("--time-limit", "time_limit_s", "longest time, s")] = 86_400.0,
 ) -> None:
     """Solve a pass quasi-statically in CalculiX; what that engine would silently ignore is refused by name.
 

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from .options import number
+
 
 def command(
     reference: Annotated[Path, typer.Argument(help="reference history (CSV)")],
@@ -14,7 +16,7 @@ def command(
     case_id: Annotated[str, typer.Option("--case", help="name of the case in the rows")] = "",
     uncertainty: Annotated[
         float | None,
-        typer.Option("--uncertainty", min=0.0, max=1.0, help="relative uncertainty of the reference's forces"),
+        number("--uncertainty", "share", "relative uncertainty of the reference's forces"),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="JSON in place of CSV")] = False,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="write to this file")] = None,

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from .options import within
+
 
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
@@ -16,10 +18,13 @@ def command(
         "fe_inputs"
     ),
     element_size: Annotated[
-        float | None, typer.Option("--element-size", help="mm, instead of the study's: for a mesh study")
+        float | None,
+        typer.Option(
+            "--element-size", callback=within("element_size_mm"), help="mm, instead of the study's: for a mesh study"
+        ),
     ] = None,
     layers: Annotated[
-        int | None, typer.Option("--layers", help="elements over the height, instead of the study's")
+        int | None, typer.Option("--layers", min=1, max=1000, help="elements over the height, instead of the study's")
     ] = None,
 ) -> None:
     """Write the deck of one case, or of all: ID.inp, ID-constant-friction.inp, vfric.f and mesh.vtu.

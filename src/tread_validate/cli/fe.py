@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from .options import number
+
 
 def command(
     deck: Annotated[Path, typer.Argument(help="deck (.inp) of the documented subset, in mm, tonne, s, MPa, N")],
@@ -16,21 +18,33 @@ def command(
     ],
     user: Annotated[Path | None, typer.Option("--user", help="friction routine, vfric.f")] = None,
     frames: Annotated[Path | None, typer.Option("--frames", help="folder for .vtu frames of the last step")] = None,
-    threads: Annotated[int, typer.Option("--threads", min=1, help="threads; the answer does not depend on it")] = 1,
+    threads: Annotated[int, typer.Option("--threads", min=1, max=1024, help="the answer does not depend on them")] = 1,
+    stall_limit: Annotated[
+        float, number("--stall-limit", "time_limit_s", "longest time without progress, s: a routine that never ends")
+    ] = 300.0,
+    time_limit: Annotated[float, number("--time-limit", "time_limit_s", "longest time of the run, s")] = 86_400.0,
 ) -> None:
     """Run a deck in the embedded explicit engine and write the history of its last step.
 
     Example: tread-validate fe fe_inputs/ID/ID.inp --user fe_inputs/ID/vfric.f -o results/fe/embedded/ID.csv
     """
+    from ..errors import EngineError, InputError
     from ..fe import run_deck
     from ..fe.progress import shown_progress
+    from .watchdog import watched
 
     if output.suffix != ".csv":
-        from ..errors import InputError
-
         raise InputError("--output", output, "a file that ends in .csv")
-    with shown_progress(deck.stem, sys.stderr) as progress:
-        result = run_deck(deck, user, threads=threads, frames=frames, progress=progress)
+    with (
+        watched(str(deck), stall_limit, time_limit, EngineError.exit_code) as moved,
+        shown_progress(deck.stem, sys.stderr) as progress,
+    ):
+
+        def told(share: float, left: float) -> None:
+            moved()
+            progress(share, left)
+
+        result = run_deck(deck, user, threads=threads, frames=frames, progress=told)
     result.write(output)
     record = result.record
     typer.echo(

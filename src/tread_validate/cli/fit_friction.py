@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from .options import number
+
 
 def command(
     table: Annotated[Path, typer.Argument(help="table: pressure_Pa, slip_speed_m_s, friction_coefficient")],
@@ -16,7 +18,7 @@ def command(
     hold: Annotated[
         list[str] | None, typer.Option("--hold", help="NAME=VALUE: beta, n or m not fitted; may be given again")
     ] = None,
-    static: Annotated[float, typer.Option("--static", help="static coefficient")] = 0.9,
+    static: Annotated[float, number("--static", "static_coefficient", "static coefficient")] = 0.9,
     confirm: Annotated[bool, typer.Option("--confirm-units", help="accept values out of the usual range")] = False,
     origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
     source: Annotated[str, typer.Option("--source", help="where the data come from, one line")] = "",
@@ -27,6 +29,7 @@ def command(
 
     Example: tread-validate fit-friction reference_data/friction/synthetic_tribometer.csv --hold beta=0
     """
+    from ..bounds import bounded
     from ..errors import InputError, one_line
     from ..friction import fit_friction, read_friction_table
     from ..friction.law_file import friction_yaml, quality
@@ -41,8 +44,7 @@ def command(
             equals = ""
         if not equals:
             raise InputError("--hold", one_line(item, 60), "NAME=VALUE, such as beta=0")
-    if not static > 0:
-        raise InputError("--static", static, "a number > 0")
+        bounded(held[name.strip()], name, f"--hold {name.strip()}")
     kind, told = checked_origin(table, origin, source)
     fit = fit_friction(read_friction_table(table, confirm), held, static)
     files = {output: friction_yaml(fit, kind, told, provenance(table))}

@@ -7,6 +7,8 @@ from typing import Annotated, Literal, cast
 
 import typer
 
+from .options import number
+
 
 def command(
     sweeps: Annotated[Path, typer.Argument(help="table: temperature_degC, frequency_Hz, storage_modulus_Pa, ...")],
@@ -15,21 +17,30 @@ def command(
     ),
     terms: Annotated[int, typer.Option("--terms", min=1, max=60, help="exponentials besides the long-term one")] = 24,
     band: Annotated[
-        tuple[float, float] | None, typer.Option("--band", help="reduced frequencies to fit, rad/s: LOW HIGH")
+        tuple[float, float] | None,
+        number("--band", "band_rad_s", "reduced frequencies to fit, rad/s: LOW HIGH"),
     ] = None,
-    reference: Annotated[float, typer.Option("--reference-degC", help="temperature of the master curve")] = 22.0,
-    c1: Annotated[float, typer.Option("--c1", help="WLF C1 at --ts")] = 8.86,
-    c2: Annotated[float, typer.Option("--c2", help="WLF C2 at --ts, K")] = 101.6,
-    ts: Annotated[float, typer.Option("--ts", help="temperature that C1 and C2 refer to, degC")] = 10.0,
+    reference: Annotated[
+        float,
+        number("--reference-degC", "temperature_degC", "temperature of the master curve"),
+    ] = 22.0,
+    c1: Annotated[float, number("--c1", "c1", "WLF C1 at --ts")] = 8.86,
+    c2: Annotated[float, number("--c2", "c2_K", "WLF C2 at --ts, K")] = 101.6,
+    ts: Annotated[
+        float,
+        number("--ts", "temperature_degC", "temperature that C1 and C2 refer to, degC"),
+    ] = 10.0,
     fit_wlf: Annotated[bool, typer.Option("--fit-wlf", help="fit C1 and C2 instead (three temperatures)")] = False,
     vertical: Annotated[bool, typer.Option("--vertical-shift", help="with --fit-wlf: a factor a sweep too")] = False,
     times: Annotated[str, typer.Option("--times", help="relaxation times: auto, even or refined")] = "auto",
     margins: Annotated[
-        tuple[float, float], typer.Option("--margins", help="g1 g2: how far times reach beyond the band")
+        tuple[float, float],
+        number("--margins", "margin", "g1 g2: how far times reach beyond the band"),
     ] = (5.0, 5.0),
-    loss_weight: Annotated[float, typer.Option("--loss-weight", min=0.0, help="weight of E'' against E'")] = 1.0,
+    loss_weight: Annotated[float, number("--loss-weight", "loss_weight", "weight of E'' against E'")] = 1.0,
     prune: Annotated[
-        float | None, typer.Option("--prune", help="fewest terms with both RMS errors at most this, per cent")
+        float | None,
+        number("--prune", "prune_percent", "fewest terms with both RMS errors at most this, per cent"),
     ] = None,
     master: Annotated[bool, typer.Option("--master", help="the table is a master curve at --reference-degC")] = False,
     unit: Annotated[str | None, typer.Option("--modulus-unit", help="Pa, kPa, MPa or GPa, whatever the header")] = None,
@@ -57,9 +68,6 @@ def command(
         raise InputError("--times", times, f"one of {', '.join(get_args(Times))}")
     if vertical and not fit_wlf:
         raise InputError("--vertical-shift", "given constants", "--fit-wlf with it")
-    for name, value in (("--c1", c1), ("--c2", c2), ("--margins", min(margins)), ("--prune", prune or 1.0)):
-        if not value > 0:
-            raise InputError(name, value, "a number > 0")
     if band is not None and not 0 < band[0] < band[1]:
         raise InputError("--band", f"{band[0]:g} {band[1]:g}", "0 < LOW < HIGH")
     kind, told = checked_origin(sweeps, origin, source)

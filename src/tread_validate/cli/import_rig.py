@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from .options import number
 
 
 def command(
@@ -14,7 +17,10 @@ def command(
         "reference_data/rig"
     ),
     name: Annotated[str | None, typer.Option("--name", help="of the files; the record's name if left out")] = None,
-    cutoff: Annotated[float, typer.Option("--low-pass-Hz", help="cut-off of the filter (no phase shift)")] = 1000.0,
+    cutoff: Annotated[
+        float,
+        number("--low-pass-Hz", "cutoff_Hz", "cut-off of the filter (no phase shift)"),
+    ] = 1000.0,
     channel: Annotated[
         list[str] | None, typer.Option("--channel", help="NAME=COLUMN or NAME=Group/Channel; may be given again")
     ] = None,
@@ -23,9 +29,9 @@ def command(
     ] = False,
     case: Annotated[str, typer.Option("--case", help="id of the study's case that was measured")] = "",
     shape: Annotated[str, typer.Option("--shape", help="rectangle or parallelogram")] = "",
-    temperature: Annotated[float | None, typer.Option("--temperature-degC")] = None,
-    interference: Annotated[float | None, typer.Option("--interference-mm")] = None,
-    diameter: Annotated[float, typer.Option("--wheel-diameter-mm", help="small wheel over the tread")] = 200.0,
+    temperature: Annotated[float | None, number("--temperature-degC", "temperature_degC", "of the rubber")] = None,
+    interference: Annotated[float | None, number("--interference-mm", "interference_mm", "of block and wheel")] = None,
+    diameter: Annotated[float, number("--wheel-diameter-mm", "diameter_mm", "small wheel over the tread")] = 200.0,
     origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
     source: Annotated[str, typer.Option("--source", help="where the data come from, one line")] = "",
     figure: Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")] = None,
@@ -66,8 +72,8 @@ def command(
     passes = cut_passes(data, cutoff)
     said = {
         "shape": shape or data.comments.get("shape", ""),
-        "temperature_degC": _given(temperature, data.comments.get("temperature_degC", "")),
-        "interference_mm": _given(interference, data.comments.get("interference_mm", "")),
+        "temperature_degC": _given("temperature_degC", temperature, data.comments),
+        "interference_mm": _given("interference_mm", interference, data.comments),
         "speed_m_s": f"{passes.rotational_speed * 0.5 * diameter * MM:.5f}",
     }
     missing = [key for key in CONDITIONS if not said[key]]
@@ -101,12 +107,15 @@ def command(
     typer.echo("wrote " + ", ".join(str(path) for path in written))
 
 
-def _given(value: float | None, said: str) -> str:
+def _given(name: str, value: float | None, comments: Mapping[str, str]) -> str:
+    """Return the condition as the command line gives it, or as the record says."""
+    from ..bounds import bounded
     from ..errors import InputError, one_line
 
     if value is not None:
         return f"{value:g}"
+    said = comments.get(name, "")
     try:
-        return f"{float(said):g}" if said else ""
+        return f"{bounded(float(said), name, f'{name} in the record'):g}" if said else ""
     except ValueError:
-        raise InputError("conditions in the record", one_line(said, 60), "a number") from None
+        raise InputError(f"{name} in the record", one_line(said, 60), "a number") from None

@@ -7,13 +7,18 @@ from typing import Annotated
 
 import typer
 
+from .options import number
+
 
 def command(
     histories: Annotated[
         list[Path], typer.Argument(help="histories of one case, named <case>/<size>.csv, or <size>.csv in a folder")
     ],
-    size: Annotated[list[float], typer.Option("--size", help="their element sizes in mm, in the same order")],
-    used: Annotated[float, typer.Option("--used", help="element size of the reference runs, mm")] = 1.0,
+    size: Annotated[
+        list[float],
+        number("--size", "element_size_mm", "their element sizes in mm, in the same order"),
+    ],
+    used: Annotated[float, number("--used", "element_size_mm", "element size of the reference runs, mm")] = 1.0,
     kind: Annotated[str, typer.Option("--kind", help="which cases the result is for: rig or belt")] = "rig",
     output: Annotated[Path, typer.Option("-o", "--output", help="YAML file to write")] = Path("mesh_error.yaml"),
 ) -> None:

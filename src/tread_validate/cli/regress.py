@@ -7,16 +7,21 @@ from typing import Annotated
 
 import typer
 
+from .options import number
+
 
 def command(
     peaks: Annotated[Path, typer.Argument(help="table of peaks (CSV)")],
     exclude: Annotated[
         list[float] | None,
-        typer.Option("--exclude-mm", help="interference left out; repeatable; 0.3 if left out"),
+        number("--exclude-mm", "interference_mm", "interference left out; repeatable; 0.3 if left out"),
     ] = None,
     all_interferences: Annotated[bool, typer.Option("--all-interferences", help="leave none out")] = False,
-    zero: Annotated[float, typer.Option("--zero-degC", help="reference temperature of a_theta, degC")] = 22.0,
-    level: Annotated[float, typer.Option("--level", min=0.5, max=0.999, help="confidence level")] = 0.95,
+    zero: Annotated[
+        float,
+        number("--zero-degC", "temperature_degC", "reference temperature of a_theta, degC"),
+    ] = 22.0,
+    level: Annotated[float, number("--level", "confidence", "confidence level")] = 0.95,
     json: Annotated[bool, typer.Option("--json", help="JSON in place of CSV")] = False,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="write to this file")] = None,
 ) -> None:

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from .options import number
+
 
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
@@ -26,7 +28,10 @@ def command(
     transfer_function: Annotated[
         Path | None, typer.Option("--transfer-function", help="CSV frequency_Hz and complex ratios to both forces")
     ] = None,
-    to_hz: Annotated[float, typer.Option("--to", help="highest frequency of the spectrum, Hz")] = 1000.0,
+    to_hz: Annotated[
+        float,
+        number("--to", "highest_frequency_Hz", "highest frequency of the spectrum, Hz"),
+    ] = 1000.0,
 ) -> None:
     """Add up the forces of every block round the tyre: time signal, spectrum to 1 kHz, response of a belt or hub.
 

@@ -9,6 +9,8 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
+from .options import number
+
 Array = NDArray[np.float64]
 
 
@@ -19,8 +21,8 @@ def command(
     study: Annotated[Path, typer.Option("--study", help="study whose surrogate compound and law are sampled")] = Path(
         "config/study.yaml"
     ),
-    noise: Annotated[float, typer.Option("--noise-percent", min=0, max=20, help="of moduli and friction")] = 2.0,
-    seed: Annotated[int, typer.Option("--seed", help="of every random number")] = 0,
+    noise: Annotated[float, number("--noise-percent", "noise_percent", "of moduli and friction")] = 2.0,
+    seed: Annotated[int, typer.Option("--seed", min=0, max=2**31, help="of every random number")] = 0,
     tdms: Annotated[bool, typer.Option("--tdms", help="write the rig record as TDMS too")] = False,
 ) -> None:
     """Write synthetic sweeps, tribometer table, ridge heights and rig record. Nothing in them was measured.

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from .options import within
+
 
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
@@ -16,7 +18,11 @@ def command(
     output: Annotated[Path, typer.Option("-o", "--output", help="folder for the tables")] = Path("results/tables"),
     exclude: Annotated[
         list[float] | None,
-        typer.Option("--exclude-mm", help="interference left out of the regressions; repeatable; 0.3 if left out"),
+        typer.Option(
+            "--exclude-mm",
+            callback=within("interference_mm"),
+            help="interference left out of the regressions; repeatable; 0.3 if left out",
+        ),
     ] = None,
     all_interferences: Annotated[
         bool, typer.Option("--all-interferences", help="leave no interference out of the regressions")

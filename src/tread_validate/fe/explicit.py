@@ -172,6 +172,8 @@ class Simulation:
         for number, step in enumerate(self.model.steps):
             self.samples = Samples()
             self._begin(number, step)
+            if progress is not None and number == 0:
+                progress(0.0, math.inf)
             interval = step.history_interval or step.period / DEFAULT_SAMPLES
             every = max(1, round(step.period / interval / ENERGY_SAMPLES))
             check = step.period / CHECKS

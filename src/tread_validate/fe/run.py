@@ -57,9 +57,9 @@ def run_deck(
     Raises
     ------
     InputError
-        A deck outside the subset, a routine that does not compile or returns a force out of range.
+        A deck outside the subset, or a routine that returns a force out of range.
     EngineError
-        No gfortran, or a run that broke down.
+        No gfortran, a routine that does not compile, or a run that broke down.
     """
     if threads < 1:
         raise InputError("threads", threads, "1 or more")

@@ -54,9 +54,9 @@ def compile_vfric(source: Path | str) -> UserRoutine:
     Raises
     ------
     EngineError
-        gfortran is not installed.
+        gfortran is not installed, or the source does not compile.
     InputError
-        The source does not compile or holds no VFRIC.
+        The source holds no VFRIC.
     """
     path = Path(source)
     read_text(path)
@@ -86,11 +86,12 @@ def compile_vfric(source: Path | str) -> UserRoutine:
     return UserRoutine(address, loaded, path)
 
 
-def _compile_error(path: Path, message: str) -> InputError:
+def _compile_error(path: Path, message: str) -> EngineError:
     line = re.search(r":(\d+):\d+:", message)
     error = re.search(r"Error: (.*)", message)
     where = f"{path}:{line.group(1)}" if line else str(path)
-    return InputError(where, one_line(error.group(1) if error else message, 160), "Fortran that gfortran compiles")
+    told = one_line(error.group(1) if error else message, 160)
+    return EngineError(f"{where}: got {told}, expected Fortran that gfortran compiles")
 
 
 @intrinsic

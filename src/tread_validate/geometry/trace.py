@@ -177,3 +177,6 @@ def _check(ridges: RidgeHeights) -> None:
     for name, heights in ridges.heights.items():
         if np.isfinite(heights).sum() < 30:
             raise InputError(f"{ridges.source}: {name}", f"{np.isfinite(heights).sum()} heights", "at least 30")
+        bends = np.diff(heights, 2)
+        if not np.nanmax(np.abs(bends), initial=0.0) > 1e-12:
+            raise InputError(f"{ridges.source}: {name}", "a straight line", "a flat patch between two bends")

@@ -7,6 +7,7 @@ import io
 import math
 from pathlib import Path
 
+from ...bounds import bounded
 from ...errors import InputError, one_line
 from ...files import read_text
 from .line import Peak
@@ -37,8 +38,8 @@ def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
             raise InputError(where, "a row of another length", f"{len(header)} cells")
         if not _on_rig(row):
             continue
-        temperature, interference, speed = (_number(row[name], f"{where}: {name}") for name in NUMBERS)
-        force = None if row[FORCE] == "" else _number(row[FORCE], f"{where}: {FORCE}")
+        temperature, interference, speed = (_number(row[name], name, where) for name in NUMBERS)
+        force = None if row[FORCE] == "" else _number(row[FORCE], FORCE, where)
         if force is not None and force <= 0.0:
             raise InputError(f"{where}: {FORCE}", row[FORCE], "a force > 0, or nothing where the run is missing")
         source = row.get("source") or ""
@@ -57,11 +58,11 @@ def _on_rig(row: dict[str, str]) -> bool:
     return row.get("rig", "true") != "false"
 
 
-def _number(text: str, where: str) -> float:
+def _number(text: str, name: str, where: str) -> float:
     try:
         value = float(text)
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise InputError(where, one_line(repr(text), 40), "a finite number")
-    return value
+        raise InputError(f"{where}: {name}", one_line(repr(text), 40), "a finite number")
+    return bounded(value, name, f"{where}: {name}")
