@@ -44,7 +44,7 @@ def _either_way(most: float, unit: str = "") -> Bound:
 
 
 UNITS = {
-    "degC": Bound(-150.0, 300.0, "degC"),
+    "degC": Bound(-150.0, 400.0, "degC"),
     "K": _either_way(1e4, "K"),
     "mm": _either_way(1e5, "mm"),
     "m": _either_way(1e4, "m"),
