@@ -6,6 +6,7 @@ the road, z across. Nodes come in layers from the face (layer 0) to the mount.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -27,16 +28,38 @@ class BodySettings:
     Attributes
     ----------
     face_size : float, m
-        Edge of an element in the plane of the face.
+        Edge of an element along the block.
     layers : int
         Elements over the height.
     refinement : float
         Height of the layer at the mount over that of the layer at the face.
+    across : int
+        Elements over the half width; 0 makes them as wide as they are long.
+    grading : float
+        1 spaces the nodes across evenly; more crowds them towards the sides, as 1 - (1 - x)^grading.
     """
 
     face_size: float = 1.0 * MM
     layers: int = 12
     refinement: float = 1.5
+    across: int = 0
+    grading: float = 1.0
+
+
+def fitted(block: Block, density: float = 8.0, layers: int = 12) -> BodySettings:
+    """Return the division that follows from a block's proportions, so that scaling the block changes nothing.
+
+    Parameters
+    ----------
+    density : float
+        Elements along the block per height of the block, at least two per density over the whole length.
+    layers : int
+    """
+    length, half, height = block.length_mm * MM, 0.5 * block.width_mm * MM, block.height_mm * MM
+    size = min(height / density, 0.5 * length / density)
+    rectangle = block.shape == "rectangle"
+    across = (0.5 if rectangle else 0.8) * half / height * density
+    return BodySettings(size, layers, 1.5, max(math.ceil(across - 1e-9), 4), 1.5 if rectangle else 1.3)
 
 
 @dataclass(frozen=True)
@@ -142,11 +165,10 @@ def make_body(block: Block, shape: FreeShape, settings: BodySettings) -> Body:
     size = settings.face_size
     length, width, height = block.length_mm * MM, block.width_mm * MM, block.height_mm * MM
     half = block.shape == "rectangle"
-    if settings.layers < 2 or length / size < 2.5 or width / size < 2.5:
+    if settings.layers < 2 or length / size < 2.5 or (not settings.across and width / size < 2.5):
         raise InputError("face size", f"{size / MM:g} mm, {settings.layers} layers", "a mesh with nodes inside")
     distance, rubber = _columns(block, size)
-    parts = max(2, round((0.5 * width if half else width) / size))
-    across = np.linspace(0.0 if half else -0.5 * width, 0.5 * width, parts + 1)
+    across = _across(width, half, settings)
     ratio = settings.refinement ** (1.0 / (settings.layers - 1))
     level = np.concatenate([[0.0], np.cumsum(ratio ** np.arange(settings.layers))])
     level /= level[-1]
@@ -154,15 +176,29 @@ def make_body(block: Block, shape: FreeShape, settings: BodySettings) -> Body:
     # s grows against travel; the middle of the block is at x = 0
     z, s = (a.ravel() for a in np.meshgrid(across, distance, indexing="ij"))
     along = 0.5 * length - s - z * np.tan(block.skew_deg * DEG)
+    order = np.lexsort((z, np.round(along, 12)))  # from the trailing end on, so that contact is a run of nodes
+    z, along = z[order], along[order]
     face, mount = shape.face(along, height), shape.mount(along, height)
     nodes = np.concatenate([np.column_stack([(1.0 - f) * face + f * mount, z]) for f in level])
     count = along.size
     quads, quad_area = _quads(across, distance, rubber)
+    quads = np.argsort(order)[quads]
     elements = np.concatenate([_bricks(quads + k * count, count) for k in range(settings.layers)])
     area = np.zeros(count)
     np.add.at(area, quads.ravel(), np.repeat(0.25 * quad_area, 4))
     knots = np.linspace(along.min(), along.max(), max(3, round(np.ptp(along) / size) + 1))
     return Body(nodes, elements, along, area, knots, settings.layers, half)
+
+
+def _across(width: float, half: bool, settings: BodySettings) -> Array:
+    """Return the places of the nodes across the block, m."""
+    parts = settings.across or max(2, round(0.5 * width / settings.face_size))
+    if not half and not settings.across:
+        parts = max(4, round(width / settings.face_size))
+        return np.linspace(-0.5 * width, 0.5 * width, parts + 1)
+    place = np.linspace(0.0, 1.0, parts + 1)
+    place = 0.5 * width * (1.0 - (1.0 - place) ** settings.grading)
+    return place if half else np.concatenate([-place[:0:-1], place])
 
 
 def _columns(block: Block, size: float) -> tuple[Array, NDArray[np.bool_]]:

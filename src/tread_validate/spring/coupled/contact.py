@@ -1,61 +1,41 @@
 """One contact problem: the forces on the face's nodes when a rigid road meets them, with dry friction.
 
-Unknowns are the relaxed displacements q = int E(t - s) dw/ds ds (m Pa) of the nodes; forces are S q. Sweeps of
-projected Gauss-Seidel visit the nodes in turn; a node that sticks where it should costs nothing, since its q is known.
+Unknowns are the relaxed displacements q = int E(t - s) dw/ds ds (m Pa) of the nodes of a window; forces are M q with M
+the stiffness of the window when all other nodes of the face are free of force. Sweeps of projected Gauss-Seidel visit
+the nodes in turn; a node that sticks where it should costs nothing, since its q is known.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...friction import kinetic_kernel
 from ...kernels import kernel
+from ..inputs import Grip
+from .inputs import FREE, SLIP, STICK, Array, Integers, Singles, Solver
 
-Array = NDArray[np.float64]
-Singles = NDArray[np.float32]
-
-FREE, STICK, SLIP = 0, 1, 2
 SETTLING = 8
 """Sweeps after which a node that slips is held to the lower limit of sliding, so that it cannot cycle."""
 LAZY = 0.2
 """A change below this fraction of the tolerance is not worth a pass over the matrix."""
+SLIDING = 1e-3
+"""Error of a node's friction force within a sweep, relative; the next sweep starts from it."""
 OVER = 1.3
 """Over-relaxation of free nodes: a fifth fewer sweeps; more does not help."""
 
 
-@kernel()
-def solve_contact(
-    stiffness: Singles,
-    q: Array,
-    force: Array,
-    target: Array,
-    normal: Array,
-    area: Array,
-    before: NDArray[np.int64],
-    state: NDArray[np.int64],
-    stiffening: float,
-    dt: float,
-    static_coefficient: float,
-    code: int,
-    parameters: Array,
-    pressures: Array,
-    slip_speeds: Array,
-    table: Array,
-    tolerance: float,
-    most_sweeps: int,
-) -> int:
-    """Solve in place for `q`, `force` (n, 3) and `state` (n,); return the number of sweeps.
+class Nodes(NamedTuple):
+    """The nodes of a contact problem.
 
-    Parameters
+    Attributes
     ----------
-    stiffness : (3 n, 3 n) array, N/m per Pa
     q : (n, 3) array, m Pa
         First guess, and result; components x, y, z of the block's frame.
     force : (n, 3) array, N
-        stiffness @ q of the first guess, and of the result: force of the road on the block.
+        operator @ q of the first guess, and of the result: force of the road on the block.
     target : (n, 3) array, m Pa
         q of a node that touches and moves with the road.
     normal : (n, 2) array
@@ -63,23 +43,53 @@ def solve_contact(
     area : (n,) array, m2
     before : (n,) array of int
         States at the end of the step before: a node that slipped sticks again only when its slip speed passes zero.
-    stiffening : float, Pa
-        dq/dw over the step of length `dt` in s.
-    tolerance : float, N
-        Largest change of a node's force in the last sweep.
+    state : (n,) array of int
     """
+
+    q: Array
+    force: Array
+    target: Array
+    normal: Array
+    area: Array
+    before: Integers
+    state: Integers
+
+
+class Tempo(NamedTuple):
+    """dq/dw over a step (Pa), and the step's length (s)."""
+
+    stiffening: float
+    dt: float
+
+
+@kernel()
+def _kinetic(grip: Grip, pressure: float, speed: float) -> float:
+    return kinetic_kernel(grip.code, grip.parameters, grip.pressures, grip.slip_speeds, grip.table, pressure, speed)
+
+
+@kernel()
+def solve_contact(operator: Singles, nodes: Nodes, tempo: Tempo, grip: Grip, solver: Solver, scale: float) -> int:
+    """Solve in place for q, force and state; return the number of sweeps.
+
+    Parameters
+    ----------
+    operator : (3 n, 3 n) array, N/m per Pa
+    scale : float, N
+        Largest nodal force: sweeps stop when none changes by more than `solver.tolerance` times this.
+    """
+    q, force, target, normal, state = nodes.q, nodes.force, nodes.target, nodes.normal, nodes.state
+    tolerance = solver.tolerance * scale
     n = q.shape[0]
     a = np.empty((3, 3))
     f = np.empty(3)
     d = np.empty(3)
-    for sweep in range(most_sweeps):
+    for sweep in range(solver.most_sweeps):
         largest = 0.0
         for visit in range(n):
             i = visit if sweep % 2 == 0 else n - 1 - visit
-            if area[i] == 0.0:
+            if nodes.area[i] == 0.0:
                 continue
             nx, ny = normal[i, 0], normal[i, 1]
-            _local(stiffness, i, nx, ny, a)
             f[0] = nx * force[i, 0] + ny * force[i, 1]
             f[1] = ny * force[i, 0] - nx * force[i, 1]
             f[2] = force[i, 2]
@@ -88,27 +98,27 @@ def solve_contact(
             g0 = nx * gx + ny * gy
             g1 = ny * gx - nx * gy
             g2 = q[i, 2] - target[i, 2]
+            if state[i] == STICK and nodes.before[i] == STICK and g0 == 0.0 and g1 == 0.0 and g2 == 0.0:
+                bound = grip.static_coefficient * f[0]
+                if f[0] > 0.0 and f[1] * f[1] + f[2] * f[2] <= bound * bound:
+                    continue
+            _local(operator, i, nx, ny, a)
             stuck0 = f[0] - a[0, 0] * g0 - a[0, 1] * g1 - a[0, 2] * g2
             stuck1 = f[1] - a[1, 0] * g0 - a[1, 1] * g1 - a[1, 2] * g2
             stuck2 = f[2] - a[2, 0] * g0 - a[2, 1] * g1 - a[2, 2] * g2
             pull = math.hypot(stuck1, stuck2)
-            pressure = max(stuck0, 0.0) / area[i]
+            limit = grip.static_coefficient
+            sticks = stuck0 > 0.0 and pull <= limit * stuck0
             # late sweeps do not let a node go back and forth between the static and the lower kinetic limit
-            if before[i] == SLIP or (state[i] == SLIP and sweep >= SETTLING):
-                limit = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, 0.0)
-                limit = min(limit, static_coefficient)
-            else:
-                limit = static_coefficient
-            if stuck0 > 0.0 and pull <= limit * stuck0:
+            if sticks and (nodes.before[i] == SLIP or (state[i] == SLIP and sweep >= SETTLING)):
+                sticks = pull <= _kinetic(grip, stuck0 / nodes.area[i], 0.0) * stuck0
+            if sticks:
                 state[i] = STICK
                 d[0], d[1], d[2] = -g0, -g1, -g2
             else:
                 sliding = False
                 if stuck0 > 0.0 or state[i] != FREE:
-                    sliding = _slide(
-                        a, f, g0, g1, g2, area[i], stiffening, dt,
-                        code, parameters, pressures, slip_speeds, table, d,
-                    )  # fmt: skip
+                    sliding = _slide(a, f, g0, g1, g2, nodes.area[i], tempo, grip, d)
                 if sliding:
                     state[i] = SLIP
                 else:
@@ -118,31 +128,31 @@ def solve_contact(
                     if g0 + d[0] < 0.0:
                         # a free node would sink into the road: it touches, and slides there
                         state[i] = SLIP
-                        _slide(
-                            a, f, g0, g1, g2, area[i], stiffening, dt,
-                            code, parameters, pressures, slip_speeds, table, d,
-                        )  # fmt: skip
+                        _slide(a, f, g0, g1, g2, nodes.area[i], tempo, grip, d)
                     else:
                         state[i] = FREE
             dx, dy = nx * d[0] + ny * d[1], ny * d[0] - nx * d[1]
             change = max(abs(dx), abs(dy), abs(d[2])) * a[0, 0]
             if change > LAZY * tolerance:
-                q[i, 0] += dx
-                q[i, 1] += dy
-                q[i, 2] += d[2]
-                _spread(stiffness, force, i, dx, dy, d[2])
+                if state[i] == STICK:  # exactly where the road holds it
+                    q[i] = target[i]
+                else:
+                    q[i, 0] += dx
+                    q[i, 1] += dy
+                    q[i, 2] += d[2]
+                _spread(operator, force, i, dx, dy, d[2])
                 largest = max(largest, change)
         if largest < tolerance:
             return sweep + 1
-    return most_sweeps
+    return solver.most_sweeps
 
 
 @kernel()
-def _local(stiffness: Singles, i: int, nx: float, ny: float, a: Array) -> None:
+def _local(operator: Singles, i: int, nx: float, ny: float, a: Array) -> None:
     """Turn the node's own 3 x 3 stiffness into axes (normal, along, across)."""
     j = 3 * i
-    xx, xy, yy = float(stiffness[j, j]), float(stiffness[j, j + 1]), float(stiffness[j + 1, j + 1])
-    xz, yz = float(stiffness[j, j + 2]), float(stiffness[j + 1, j + 2])
+    xx, xy, yy = float(operator[j, j]), float(operator[j, j + 1]), float(operator[j + 1, j + 1])
+    xz, yz = float(operator[j, j + 2]), float(operator[j + 1, j + 2])
     a[0, 0] = nx * nx * xx + 2.0 * nx * ny * xy + ny * ny * yy
     a[1, 1] = ny * ny * xx - 2.0 * nx * ny * xy + nx * nx * yy
     a[0, 1] = nx * ny * (xx - yy) + (ny * ny - nx * nx) * xy
@@ -151,7 +161,7 @@ def _local(stiffness: Singles, i: int, nx: float, ny: float, a: Array) -> None:
     a[2, 0] = a[0, 2]
     a[1, 2] = ny * xz - nx * yz
     a[2, 1] = a[1, 2]
-    a[2, 2] = stiffness[j + 2, j + 2]
+    a[2, 2] = operator[j + 2, j + 2]
 
 
 @kernel()
@@ -178,13 +188,8 @@ def _slide(
     g1: float,
     g2: float,
     area: float,
-    stiffening: float,
-    dt: float,
-    code: int,
-    parameters: Array,
-    pressures: Array,
-    slip_speeds: Array,
-    table: Array,
+    tempo: Tempo,
+    grip: Grip,
     d: Array,
 ) -> bool:
     """One step towards the sliding solution of a node on the road; False where it would be pulled at.
@@ -208,22 +213,22 @@ def _slide(
         return True
     # size of the slip: length - mean g - mu(p, v) N = 0 falls with g; Newton, kept inside a bracket
     pressure = f0 / area
-    to_speed = 1.0 / (stiffening * dt)
+    to_speed = 1.0 / (tempo.stiffening * tempo.dt)
     low, high = 0.0, length / mean
     slip = min(slip, high)
     size = length - mean * slip
     for _ in range(30):
-        mu = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, slip * to_speed)
+        mu = _kinetic(grip, pressure, slip * to_speed)
         value = length - mean * slip - mu * f0
         size = length - mean * slip
-        if abs(value) <= 1e-7 * length:
+        if abs(value) <= SLIDING * length:
             break
         if value > 0.0:
             low = slip
         else:
             high = slip
         ahead = 1.001 * slip + 1e-9 * high
-        more = kinetic_kernel(code, parameters, pressures, slip_speeds, table, pressure, ahead * to_speed)
+        more = _kinetic(grip, pressure, ahead * to_speed)
         slope = -mean - f0 * (more - mu) / (ahead - slip)
         slip = slip - value / slope if slope < 0.0 else low
         if not low < slip < high:
@@ -239,10 +244,10 @@ def _slide(
 
 
 @kernel(reorder=True)
-def _spread(stiffness: Singles, force: Array, i: int, dx: float, dy: float, dz: float) -> None:
+def _spread(operator: Singles, force: Array, i: int, dx: float, dy: float, dz: float) -> None:
     """Add the forces that a change of one node's q makes everywhere (rows of the symmetric matrix)."""
     flat = force.ravel()
     sx, sy, sz = np.float32(dx), np.float32(dy), np.float32(dz)
-    r0, r1, r2 = stiffness[3 * i], stiffness[3 * i + 1], stiffness[3 * i + 2]
+    r0, r1, r2 = operator[3 * i], operator[3 * i + 1], operator[3 * i + 2]
     for j in range(flat.size):
         flat[j] += r0[j] * sx + r1[j] * sy + r2[j] * sz

@@ -35,11 +35,12 @@ class IncompatibleField:
         lame, shear = lame_constants(1.0, poissons_ratio)
         centre = _jacobian(nodes, np.zeros(3))
         self._nodes = nodes
-        self._centre_inverse, self._centre_det = np.linalg.inv(centre), np.linalg.det(centre)
-        blocks = np.zeros((nodes.shape[0], 33, 33))
-        for point in GAUSS:
-            gradients, det = self.shape_gradients(point)
-            blocks += _isotropic(gradients, lame, shear) * det[:, None, None]
+        self._centre_inverse, self._centre_det = _inverse(centre)
+        strain, stress = np.empty((nodes.shape[0], 48, 33)), np.empty((nodes.shape[0], 48, 33))
+        self.at_points = [self.shape_gradients(point) for point in GAUSS]
+        for k, (gradients, det) in enumerate(self.at_points):
+            _strain_rows(gradients, lame, shear, det, strain[:, 6 * k : 6 * k + 6], stress[:, 6 * k : 6 * k + 6])
+        blocks = np.swapaxes(strain, 1, 2) @ stress
         self._outer, self._cross = blocks[:, :24, :24], blocks[:, :24, 24:]
         self._inner = blocks[:, 24:, 24:]
         self._inner_solved = np.linalg.solve(self._inner, np.swapaxes(self._cross, 1, 2))
@@ -53,11 +54,11 @@ class IncompatibleField:
         flat = displacement.reshape(-1, 24, 1)
         return np.asarray(-(self._inner_solved @ flat).reshape(-1, 3, 3), dtype=np.float64)
 
-    def gradient(self, displacement: Array, amplitudes: Array, point: Array) -> tuple[Array, Array]:
-        """Return the displacement gradient du_i/dx_j (m, 3, 3) at a Gauss point, and its volume (m,) in m3."""
-        gradients, det = self.shape_gradients(point)
+    def gradient(self, displacement: Array, amplitudes: Array, point: int) -> tuple[Array, Array]:
+        """Return the displacement gradient du_i/dx_j (m, 3, 3) at one of the Gauss points, and its volume (m,), m3."""
+        gradients, det = self.at_points[point]
         both = np.concatenate([displacement, amplitudes], axis=1)
-        return np.asarray(np.einsum("mni,mnj->mij", both, gradients), dtype=np.float64), det
+        return np.asarray(np.swapaxes(both, 1, 2) @ gradients, dtype=np.float64), det
 
     def relax_modes(self, residual: Array) -> Array:
         """Return the change of the internal modes, (m, 3, 3), that a residual (m, 3, 3) on them asks for."""
@@ -67,9 +68,9 @@ class IncompatibleField:
     def shape_gradients(self, point: Array) -> tuple[Array, Array]:
         """Return the gradients of the 8 shape functions and 3 modes (m, 11, 3), 1/m, and the volumes (m,), m3."""
         jacobian = _jacobian(self._nodes, point)
-        det = np.linalg.det(jacobian)
-        shapes = np.einsum("ni,mij->mnj", shape_derivatives(point), np.linalg.inv(jacobian))
-        bubbles = np.einsum("ni,mij->mnj", np.diag(-2.0 * point), self._centre_inverse)
+        inverse, det = _inverse(jacobian)
+        shapes = shape_derivatives(point) @ inverse
+        bubbles = np.diag(-2.0 * point) @ self._centre_inverse
         return np.concatenate([shapes, bubbles * (self._centre_det / det)[:, None, None]], axis=1), det
 
 
@@ -86,15 +87,31 @@ def shape_derivatives(point: Array) -> Array:
 
 
 def _jacobian(nodes: Array, point: Array) -> Array:
-    return np.asarray(np.einsum("mna,ni->mai", nodes, shape_derivatives(point)), dtype=np.float64)
+    return np.asarray(np.swapaxes(nodes, 1, 2) @ shape_derivatives(point), dtype=np.float64)
 
 
-def _isotropic(gradients: Array, lame: float, shear: float) -> Array:
-    """Return the (m, 3n, 3n) integrand lambda div div + 2 G eps:eps of n shape functions with `gradients` (m, n, 3)."""
-    m, n, _ = gradients.shape
-    outer = np.einsum("mai,mbj->maibj", gradients, gradients)
-    result = lame * outer + shear * np.swapaxes(outer, 2, 4)
-    laplace = shear * np.einsum("mai,mbi->mab", gradients, gradients)
+def _strain_rows(gradients: Array, lame: float, shear: float, det: Array, strain: Array, stress: Array) -> None:
+    """Write the strains (m, 6, 3n) of n shape functions with `gradients` (m, n, 3), and their stresses times `det`.
+
+    Order xx, yy, zz, xy, yz, zx; shear strains are the engineer's.
+    """
+    strain[:] = 0.0
+    for i, (j, k) in enumerate(((0, 1), (1, 2), (2, 0))):
+        strain[:, i, i::3] = gradients[:, :, i]
+        strain[:, 3 + i, j::3] = gradients[:, :, k]
+        strain[:, 3 + i, k::3] = gradients[:, :, j]
+    law = np.diag([2.0 * shear] * 3 + [shear] * 3)
+    law[:3, :3] += lame
+    np.matmul(law, strain, out=stress)
+    stress *= det[:, None, None]
+
+
+def _inverse(matrix: Array) -> tuple[Array, Array]:
+    """Return the inverses (m, 3, 3) and determinants (m,) of 3 x 3 matrices, by cofactors."""
+    cofactors = np.empty_like(matrix)
     for i in range(3):
-        result[:, :, i, :, i] += laplace
-    return np.asarray(result.reshape(m, 3 * n, 3 * n))
+        a, b = matrix[:, i - 2], matrix[:, i - 1]
+        for j in range(3):
+            cofactors[:, i, j] = a[:, j - 2] * b[:, j - 1] - a[:, j - 1] * b[:, j - 2]
+    det = np.einsum("mi,mi->m", matrix[:, 0], cofactors[:, 0])
+    return np.asarray(np.swapaxes(cofactors, 1, 2) / det[:, None, None]), det

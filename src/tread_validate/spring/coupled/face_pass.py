@@ -10,13 +10,11 @@ from scipy.interpolate import PchipInterpolator
 
 from ...geometry import path_of
 from ...study import Case
-from ...units import MM
-from .body import BodySettings
 from .roll import CoupledSettings, FacePass, roll
 
 Array = NDArray[np.float64]
 
-COARSE = CoupledSettings(body=BodySettings(face_size=2.0 * MM, layers=8))
+COARSE = CoupledSettings(density=4.0, layers=8)
 """A face for thousands of runs."""
 SAMPLES = 1500
 """Rows of a record per contact duration: the clock is finer than the solver's steps and is filled by interpolation."""

@@ -11,6 +11,7 @@ The law is that of an explicit finite element code in rate form, in the limit: C
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +20,7 @@ from scipy.sparse.linalg import splu
 
 from .body import Body
 from .condense import assemble
-from .element import GAUSS, IncompatibleField, lame_constants
+from .element import IncompatibleField, lame_constants
 
 Array = NDArray[np.float64]
 
@@ -42,8 +43,7 @@ class Stiffening:
 
 def logarithmic_stiffening(body: Body, poissons_ratio: float) -> Stiffening:
     """Return the stiffening of `body` between its mount and a road to which its whole face sticks."""
-    press = uniform_motion(body, poissons_ratio, 1)[body.elements]
-    shear = uniform_motion(body, poissons_ratio, 0)[body.elements]
+    press, shear = (motion[body.elements] for motion in uniform_motions(body, poissons_ratio, (1, 0)))
     field = IncompatibleField(body.nodes[body.elements], poissons_ratio)
     d = PROBE * float(np.ptp(body.nodes[:, 1]))
 
@@ -59,16 +59,20 @@ def logarithmic_stiffening(body: Body, poissons_ratio: float) -> Stiffening:
     )
 
 
-def uniform_motion(body: Body, poissons_ratio: float, component: int) -> Array:
-    """Return the nodal displacements (all, 3) when the face moves by one metre in one direction, mount held."""
+def uniform_motions(body: Body, poissons_ratio: float, components: Sequence[int]) -> list[Array]:
+    """Return the nodal displacements (all, 3) when the face moves by one metre in each direction, mount held."""
     matrix = assemble(body, poissons_ratio)
-    displacement = np.zeros((body.nodes.shape[0], 3))
     n = body.nodes_per_layer
-    displacement[:n, component] = 1.0
-    inside = np.arange(3 * n, 3 * n * body.layers)
-    load = -(matrix @ displacement.ravel())[inside]
-    displacement.ravel()[inside] = splu(matrix[inside][:, inside].tocsc()).solve(load)
-    return displacement
+    inside = slice(3 * n, 3 * n * body.layers)
+    factor = splu(matrix[inside, inside].tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+    motions = []
+    for component in components:
+        displacement = np.zeros((body.nodes.shape[0], 3))
+        displacement[:n, component] = 1.0
+        load = -(matrix @ displacement.ravel())[inside]
+        displacement.ravel()[inside] = factor.solve(load)
+        motions.append(displacement)
+    return motions
 
 
 def virtual_work(field: IncompatibleField, displacement: Array, virtual: Array, poissons_ratio: float) -> float:
@@ -78,7 +82,7 @@ def virtual_work(field: IncompatibleField, displacement: Array, virtual: Array, 
     """
     amplitudes, virtual_amplitudes = field.amplitudes(displacement), field.amplitudes(virtual)
     total = 0.0
-    for point in GAUSS:
+    for point in range(len(field.at_points)):
         gradient, volume = field.gradient(displacement, amplitudes, point)
         virtual_gradient, _ = field.gradient(virtual, virtual_amplitudes, point)
         total += float(np.einsum("mij,mij,m->", piola_stress(gradient, poissons_ratio), virtual_gradient, volume))

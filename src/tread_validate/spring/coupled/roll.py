@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +12,14 @@ from ...friction import FrictionLaw, law
 from ...geometry import Path, path_of
 from ...material import PronySeries, prony_series
 from ...study import Case
-from ...units import MM
-from .body import Body, BodySettings
-from .march import march
+from ..inputs import Grip
+from .body import Body, BodySettings, fitted
+from .inputs import RoadMotion, Solid, Solver, fresh_state, scratch
+from .march import Course, Record, march, pose_at
 from .motion import free_shape, motion
-from .store import condensed, stiffening
+from .operators import FaceOperators
+from .step import start
+from .store import operators, stiffening
 
 Array = NDArray[np.float64]
 
@@ -27,11 +30,18 @@ class CoupledSettings:
 
     Attributes
     ----------
-    body : BodySettings
-    step : float, m
-        Travel per step while an edge of the contact moves over the face.
-    longest_step : float, m
-        Travel per step while the whole face stays down.
+    density : float
+        Elements of the face along the block per height of the block.
+    layers : int
+        Elements over the height.
+    body : BodySettings or None
+        The division of the block where it shall not follow from the block.
+    step : float
+        Travel per step while an edge of the contact moves over the face, in elements.
+    middle_step : float
+        The same while all of the face is on the road and is still pressed in or lifted.
+    longest_step : float
+        The same while the whole face lies still.
     finite_strain : bool
         Stiffen by the a-priori factors of logarithmic strain.
     mesh_correction : bool
@@ -40,9 +50,12 @@ class CoupledSettings:
         Change of a node's force in the last sweep over the largest nodal force.
     """
 
-    body: BodySettings = field(default_factory=BodySettings)
-    step: float = 0.5 * MM
-    longest_step: float = 8.0 * MM
+    density: float = 8.0
+    layers: int = 12
+    body: BodySettings | None = None
+    step: float = 0.5
+    middle_step: float = 1.0
+    longest_step: float = 8.0
     finite_strain: bool = True
     mesh_correction: bool = True
     tolerance: float = 1e-3
@@ -111,39 +124,63 @@ def roll(
     path = path_of(case)
     shape = free_shape(path, case.block)
     nu = case.compound.poissons_ratio
-    body, face = condensed(case.block, shape, settings.body, nu, settings.mesh_correction)
+    division = settings.body or fitted(case.block, settings.density, settings.layers)
+    body, follow, parts = operators(case.block, shape, division, nu, settings.mesh_correction)
     series = series or prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
     friction = friction or law(case.friction, case.root)
-    moves = motion(path, shape, body, face, case.height, step_times(path, settings))
+    time = step_times(path, division.face_size, settings)
+    moves = motion(path, shape, body, follow, case.height, time)
     stretch = np.zeros(2)
     if settings.finite_strain:
         grown = stiffening(case.block, shape, nu)
         stretch[:] = grown.normal, grown.tangential
-    force, displacement, state, sweeps = march(
-        moves.time, moves.origin, moves.angle, moves.unloaded, body.area, face.stiffness.astype(np.float32),
-        series.long_term_modulus, series.moduli, series.relaxation_times,
-        path.road.radius, path.speed * (1.0 + case.creep_ratio), stretch, friction.static_coefficient,
-        *friction.kernel_arguments, settings.tolerance, settings.most_sweeps,
+    solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times, stretch)
+    road = RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio))
+    grip = Grip(friction.static_coefficient, *friction.kernel_arguments)
+    record = run_course(moves, road, solid, parts, grip, Solver(settings.tolerance, settings.most_sweeps))
+    return FacePass(body, time, *record)
+
+
+def run_course(
+    moves: Course, road: RoadMotion, solid: Solid, parts: FaceOperators, grip: Grip, solver: Solver
+) -> Record:
+    """Run a block along a course and return the record."""
+    steps, n, terms = moves.time.size, parts.nodes.area.size, solid.moduli.size
+    record = Record(
+        np.zeros((steps, n, 3)), np.zeros((steps, n, 3)), np.zeros((steps, n), dtype=np.int64),
+        np.zeros(steps, dtype=np.int64),
     )  # fmt: skip
-    return FacePass(body, moves.time, force, displacement, state, sweeps)
+    state, work = fresh_state(n, terms), scratch(n, terms)
+    start(pose_at(moves, 0), solid, state)
+    at = 1
+    while True:
+        at, a, b = march(at, moves, road, solid, parts.nodes, parts.windows, grip, solver, state, work, record)
+        if at == steps:
+            return record
+        parts.add(a, b)
 
 
-def step_times(path: Path, settings: CoupledSettings) -> Array:
-    """Return the times of the steps, s: fine while the contact's edges move, longer while the whole face is down."""
+def step_times(path: Path, size: float, settings: CoupledSettings) -> Array:
+    """Return the times of the steps, s: fine while the contact's edges move, longer while the whole face is down.
+
+    `size` is the length of the face's elements in m.
+    """
+    fine, longest = settings.step * size, settings.longest_step * size
     extent = path.columns.extent
     total = path.contact_duration * path.speed
-    lead = 2.0 * settings.step
     edge = extent + max(0.0, _approach(path))
-    begin, end = -lead, total + 3.0 * MM
-    quiet = (edge, total - edge)
-    travel = [begin]
-    step = settings.step
+    down, quiet = (extent, total - extent), (edge, total - edge)
+    travel = [-2.0 * fine]
+    end = total + 3.0 * size
+    step = fine
     while travel[-1] < end - 1e-9:
         here = travel[-1]
-        if quiet[0] <= here < quiet[1] - settings.step:
-            step = min(step * 1.4, settings.longest_step, max(quiet[1] - here, settings.step))
+        if quiet[0] <= here < quiet[1] - fine:
+            step = min(step * 1.4, longest, max(quiet[1] - here, fine))
+        elif down[0] <= here < down[1]:
+            step = settings.middle_step * size
         else:
-            step = settings.step
+            step = fine
         travel.append(min(here + step, end) if here + step < end else end)
     return np.array(travel) / path.speed
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...study import Block
 from ...units import MM
@@ -16,6 +17,9 @@ from ..stiffness import StiffnessRatios, static_ratios
 from .body import Body, BodySettings, FreeShape, make_body
 from .condense import FaceStiffness, condense
 from .finite_strain import Stiffening, logarithmic_stiffening
+from .operators import FaceOperators
+
+Array = NDArray[np.float64]
 
 FINE = BodySettings(face_size=1.25 * MM, layers=8)
 COARSE = BodySettings(face_size=2.5 * MM, layers=4)
@@ -43,6 +47,15 @@ def condensed(
     matrix = scale[:, None] * face.stiffness * scale
     # the supports on the plane of symmetry only have to stay supports
     return body, FaceStiffness(matrix, face.follow)
+
+
+@lru_cache(maxsize=12)
+def operators(
+    block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float, mesh_correction: bool = True
+) -> tuple[Body, Array, FaceOperators]:
+    """Return the block's body, what its unloaded face does with the mount, and its face ready for contact."""
+    body, face = condensed(block, shape, settings, poissons_ratio, mesh_correction)
+    return body, face.follow, FaceOperators(body, face)
 
 
 @lru_cache(maxsize=32)

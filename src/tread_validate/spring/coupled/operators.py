@@ -1,0 +1,82 @@
+"""Stiffness of parts of a face whose other nodes are free of force, made when a pass first asks for them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from .body import Body
+from .condense import FaceStiffness
+from .inputs import FaceNodes, Integers
+from .march import ROWS, Windows
+
+Array = NDArray[np.float64]
+
+
+class FaceOperators:
+    """A condensed face ready for contact.
+
+    A window is a run of cells of two rows. Its operator M is the inverse of the window's part of the compliance, that
+    is the Schur complement of the stiffness: forces on the window's nodes = M q while all others are free.
+
+    Attributes
+    ----------
+    nodes : FaceNodes
+    windows : Windows
+        Replaced when one is added.
+    """
+
+    def __init__(self, body: Body, face: FaceStiffness) -> None:
+        self._stiffness = face.stiffness
+        self._compliance = inverse(face.stiffness)
+        row = rows_of(body)
+        cells = int(row[-1]) // ROWS + 1
+        first = np.searchsorted(row, ROWS * np.arange(cells + 1)).astype(np.int64)
+        self.nodes = FaceNodes(body.area, row, self._compliance.astype(np.float32))
+        self.windows = Windows(first, np.full((cells, cells + 1), -1, dtype=np.int64), np.zeros(0, dtype=np.float32))
+        self._used = 0
+
+    def add(self, a: int, b: int) -> None:
+        """Make the operator of the cells a..b-1."""
+        first, offset, pool = self.windows
+        begin, end = 3 * int(first[a]), 3 * int(first[b])
+        size = (end - begin) ** 2
+        if self._used + size > pool.size:
+            pool = np.concatenate([pool[: self._used], np.zeros(max(size, self._used), dtype=np.float32)])
+        pool[self._used : self._used + size] = self._operator(begin, end).astype(np.float32).ravel()
+        offset[a, b] = self._used
+        self._used += size
+        self.windows = Windows(first, offset, pool)
+
+    def _operator(self, begin: int, end: int) -> Array:
+        whole = self._stiffness.shape[0]
+        inside = slice(begin, end)
+        if 2 * (end - begin) <= whole:
+            return inverse(self._compliance[inside, inside])
+        out = np.r_[0:begin, end:whole]
+        if out.size == 0:
+            return self._stiffness
+        coupling = self._stiffness[out, inside]
+        factor = cho_factor(self._stiffness[np.ix_(out, out)], lower=True, overwrite_a=True, check_finite=False)
+        return np.asarray(
+            self._stiffness[inside, inside] - coupling.T @ cho_solve(factor, coupling, check_finite=False)
+        )
+
+
+def rows_of(body: Body) -> Integers:
+    """Return the row across the block that each node belongs to, 0 at the trailing end, (n,)."""
+    pitch = float(np.diff(body.knots).mean())
+    return np.asarray(np.round((body.along - body.along[0]) / pitch), dtype=np.int64)
+
+
+def inverse(matrix: Array) -> Array:
+    """Return the inverse of a symmetric positive definite matrix."""
+    from scipy.linalg.lapack import dpotrf, dpotri
+
+    factor, fault = dpotrf(matrix, lower=1)
+    assert fault == 0
+    lower, fault = dpotri(factor, lower=1, overwrite_c=1)
+    assert fault == 0
+    lower = np.tril(lower)
+    return np.asarray(lower + np.tril(lower, -1).T)
