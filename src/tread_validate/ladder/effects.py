@@ -16,11 +16,10 @@ from ..material import PronySeries, prony_series
 from ..spring import pass_of
 from ..spring.block_pass import prepare
 from ..spring.bonded import ratios, stiffened
-from ..spring.coupled.body import BodySettings
+from ..spring.coupled.face_pass import COARSE
 from ..spring.coupled.roll import CoupledSettings, roll
 from ..spring.stiffness import gent_lindley, pressure_theory, shear_theory
 from ..study import Case
-from ..units import MM
 
 Array = NDArray[np.float64]
 
@@ -96,7 +95,7 @@ Change = Callable[[], tuple[Forces, Forces]]
 def _effects(case: Case) -> list[tuple[str, str, str, Change]]:
     base = CoupledSettings()
     small = replace(base, finite_strain=False)
-    coarse = replace(base, body=BodySettings(2.0 * MM, 8))
+    coarse = COARSE
     raw = replace(base, mesh_correction=False)
 
     @cache
@@ -128,7 +127,8 @@ def _effects(case: Case) -> list[tuple[str, str, str, Change]]:
          lambda: (spring_forces(case, "paper"), spring_forces(case, "light"))),
         ("mounting", f"coupled, {case.block.mounting}", f"coupled, {_other(case)}",
          lambda: (cached(), face_forces(_mounted(case), base))),
-        ("mesh of the face", "coupled, 1 mm", "coupled, 2 mm", lambda: (cached(), face_forces(case, coarse))),
+        ("mesh of the face", "coupled, 8 elements a height", "coupled, 4 elements a height",
+         lambda: (cached(), face_forces(case, coarse))),
         ("mesh correction", "coupled, corrected", "coupled, as meshed", lambda: (cached(), face_forces(case, raw))),
         ("poisson's ratio", "coupled, 0.47", "coupled, 0.49",
          lambda: (cached(), face_forces(_with_poisson(case, 0.49), base))),

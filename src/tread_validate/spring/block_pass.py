@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import EngineError, InputError
-from ..friction import FrictionLaw, law
 from ..geometry import Path, path_of
-from ..material import PronySeries, prony_series
-from ..study import Case, Compound, Friction
+from ..study import Case
 from ..units import MM
 from .assembly import add_element, block_forces
 from .element import COLUMNS, run_element
 from .inputs import Grip, Memory, Motion, Rubber
 from .memory import TICKS, memory_of
+from .rubber import law_of, series_of
 
 Array = NDArray[np.float64]
 
@@ -170,7 +169,7 @@ def prepare(case: Case, mass_factor: float = 1.0) -> BlockPass:
     that will not do.
     """
     path = path_of(case)
-    series, friction = _rubber(case), _law(case)
+    series, friction = series_of(case), law_of(case)
     rubber = Rubber(
         series.long_term_modulus,
         np.ascontiguousarray(series.moduli),
@@ -201,25 +200,3 @@ def _step(case: Case, path: Path, element_length: float) -> float:
 def prepare_light(case: Case) -> BlockPass:
     """Return the case ready to run, with a hundredth of the lumped mass."""
     return prepare(case, mass_factor=1e-2)
-
-
-def _rubber(case: Case) -> PronySeries:
-    """Return the compound's series at the case's temperature; one without a data file is worked out once."""
-    if case.input_files():
-        return prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
-    return _series(case.compound, case.temperature)
-
-
-@lru_cache(maxsize=256)
-def _series(compound: Compound, temperature: float) -> PronySeries:
-    return prony_series(compound).at_temperature(temperature, compound.wlf)
-
-
-def _law(case: Case) -> FrictionLaw:
-    """Return the friction law; one without a data file is worked out once."""
-    return law(case.friction, case.root) if case.input_files() else _plain_law(case.friction)
-
-
-@lru_cache(maxsize=256)
-def _plain_law(friction: Friction) -> FrictionLaw:
-    return law(friction)

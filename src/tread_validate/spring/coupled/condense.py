@@ -76,9 +76,9 @@ def _eliminate(diagonal: list[Array], towards_mount: list[Array], load: Array) -
 def parities(body: Body) -> list[csr_array]:
     """Return orthonormal bases (3 n, k) of motions of a layer that the body's symmetry keeps apart.
 
-    A rectangle looks the same in the mirror x -> -x, a parallelogram turned by half a turn about y; even and odd motions
-    then do not load each other, and two problems of half the size take a quarter of the work. One basis, the identity,
-    where the body has no such symmetry (sipes).
+    A rectangle looks the same in the mirror x -> -x, a parallelogram turned by half a turn about y; even and odd
+    motions then do not load each other, and two problems of half the size take a quarter of the work. One basis, the
+    identity, where the body has no such symmetry (sipes).
     """
     n = body.nodes_per_layer
     identity = csr_array(eye_array(3 * n))

@@ -21,8 +21,8 @@ SETTLING = 8
 """Sweeps after which a node that slips is held to the lower limit of sliding, so that it cannot cycle."""
 LAZY = 0.2
 """A change below this fraction of the tolerance is not worth a pass over the matrix."""
-SLIDING = 1e-3
-"""Error of a node's friction force within a sweep, relative; the next sweep starts from it."""
+SLIDING = 0.1
+"""Error of a node's friction force within a sweep over the tolerance; the next sweep starts from it."""
 OVER = 1.3
 """Over-relaxation of free nodes: a fifth fewer sweeps; more does not help."""
 
@@ -118,7 +118,7 @@ def solve_contact(operator: Singles, nodes: Nodes, tempo: Tempo, grip: Grip, sol
             else:
                 sliding = False
                 if stuck0 > 0.0 or state[i] != FREE:
-                    sliding = _slide(a, f, g0, g1, g2, nodes.area[i], tempo, grip, d)
+                    sliding = _slide(a, f, g0, g1, g2, nodes.area[i], tempo, grip, SLIDING * tolerance, d)
                 if sliding:
                     state[i] = SLIP
                 else:
@@ -128,7 +128,7 @@ def solve_contact(operator: Singles, nodes: Nodes, tempo: Tempo, grip: Grip, sol
                     if g0 + d[0] < 0.0:
                         # a free node would sink into the road: it touches, and slides there
                         state[i] = SLIP
-                        _slide(a, f, g0, g1, g2, nodes.area[i], tempo, grip, d)
+                        _slide(a, f, g0, g1, g2, nodes.area[i], tempo, grip, SLIDING * tolerance, d)
                     else:
                         state[i] = FREE
             dx, dy = nx * d[0] + ny * d[1], ny * d[0] - nx * d[1]
@@ -190,6 +190,7 @@ def _slide(
     area: float,
     tempo: Tempo,
     grip: Grip,
+    close: float,
     d: Array,
 ) -> bool:
     """One step towards the sliding solution of a node on the road; False where it would be pulled at.
@@ -221,7 +222,7 @@ def _slide(
         mu = _kinetic(grip, pressure, slip * to_speed)
         value = length - mean * slip - mu * f0
         size = length - mean * slip
-        if abs(value) <= SLIDING * length:
+        if abs(value) <= close:
             break
         if value > 0.0:
             low = slip

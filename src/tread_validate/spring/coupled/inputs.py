@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..inputs import Grip
+
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Integers = NDArray[np.int64]
@@ -130,6 +132,16 @@ class Solver(NamedTuple):
 
     tolerance: float
     most_sweeps: int
+
+
+class Scene(NamedTuple):
+    """What stays the same over a pass."""
+
+    face: FaceNodes
+    solid: Solid
+    road: RoadMotion
+    grip: Grip
+    solver: Solver
 
 
 def fresh_state(nodes: int, terms: int) -> FaceState:

@@ -7,9 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...kernels import kernel
-from ..inputs import Grip
 from .contact import Tempo
-from .inputs import Array, FaceNodes, FaceState, Integers, Pose, RoadMotion, Scratch, Singles, Solid, Solver
+from .inputs import Array, FaceState, Integers, Pose, Scene, Scratch, Singles
 from .step import approach, hold, settle, widest
 
 ROWS = 2
@@ -68,17 +67,7 @@ def pose_at(course: Course, k: int) -> Pose:
 
 @kernel()
 def march(
-    begin: int,
-    course: Course,
-    road: RoadMotion,
-    solid: Solid,
-    face: FaceNodes,
-    windows: Windows,
-    grip: Grip,
-    solver: Solver,
-    state: FaceState,
-    work: Scratch,
-    record: Record,
+    begin: int, course: Course, scene: Scene, windows: Windows, state: FaceState, work: Scratch, record: Record
 ) -> tuple[int, int, int]:
     """Run steps from the time `begin` on.
 
@@ -86,18 +75,8 @@ def march(
     yet, and its cells a, b: call again from that time.
     """
     for k in range(begin, course.time.size):
-        a, b, sweeps = take_step(
-            pose_at(course, k),
-            course.time[k] - course.time[k - 1],
-            road,
-            solid,
-            face,
-            windows,
-            grip,
-            solver,
-            state,
-            work,
-        )
+        dt = course.time[k] - course.time[k - 1]
+        a, b, sweeps = take_step(pose_at(course, k), dt, scene, windows, state, work)
         if sweeps < 0:
             return k, a, b
         record.sweeps[k] = sweeps
@@ -107,30 +86,20 @@ def march(
 
 @kernel()
 def take_step(
-    pose: Pose,
-    dt: float,
-    road: RoadMotion,
-    solid: Solid,
-    face: FaceNodes,
-    windows: Windows,
-    grip: Grip,
-    solver: Solver,
-    state: FaceState,
-    work: Scratch,
+    pose: Pose, dt: float, scene: Scene, windows: Windows, state: FaceState, work: Scratch
 ) -> tuple[int, int, int]:
     """Advance the state by `dt` to a pose; return the window's cells and the sweeps.
 
     Sweeps of -1 say that the window's operator is not there yet; the state is then as it was.
     """
-    stiffening, first, last = approach(pose, road, solid, state, dt, work)
+    stiffening, first, last = approach(pose, scene, state, dt, work)
     tempo = Tempo(stiffening, dt)
-    a, b = 0, 0
-    sweeps = 0
+    a, b, sweeps = 0, 0, 0
     while True:
         begin, end = 0, 0
         operator = windows.pool[:0].reshape(0, 0)
         if last > first:
-            a, b = cells_of(face.row, windows.first.size - 1, first, last)
+            a, b = cells_of(scene.face.row, windows.first.size - 1, first, last)
             offset = windows.offset[a, b]
             if offset < 0:
                 state.code[:] = work.before
@@ -138,11 +107,11 @@ def take_step(
             begin, end = windows.first[a], windows.first[b]
             size = 3 * (end - begin)
             operator = windows.pool[offset : offset + size * size].reshape(size, size)
-        sweeps += hold(operator, begin, end, face, grip, solver, tempo, state, work)
-        first, last = widest(pose, road, solid, state, tempo, begin, end, work)
+        sweeps += hold(operator, begin, end, scene, tempo, state, work)
+        first, last = widest(pose, scene, state, tempo, begin, end, work)
         if first == begin and last == end:
             break
-    settle(pose, solid, state, tempo, work)
+    settle(pose, scene.solid, state, tempo, work)
     return a, b, sweeps
 
 

@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from ...friction import FrictionLaw, law
+from ...friction import FrictionLaw
 from ...geometry import Path, path_of
-from ...material import PronySeries, prony_series
+from ...material import PronySeries
 from ...study import Case
 from ..inputs import Grip
+from ..rubber import law_of, series_of
 from .body import Body, BodySettings, fitted
-from .inputs import RoadMotion, Solid, Solver, fresh_state, scratch
+from .inputs import RoadMotion, Scene, Solid, Solver, fresh_state, scratch
 from .march import Course, Record, march, pose_at
 from .motion import free_shape, motion
 from .operators import FaceOperators
@@ -126,8 +127,7 @@ def roll(
     nu = case.compound.poissons_ratio
     division = settings.body or fitted(case.block, settings.density, settings.layers)
     body, follow, parts = operators(case.block, shape, division, nu, settings.mesh_correction)
-    series = series or prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
-    friction = friction or law(case.friction, case.root)
+    series, friction = series or series_of(case), friction or law_of(case)
     time = step_times(path, division.face_size, settings)
     moves = motion(path, shape, body, follow, case.height, time)
     stretch = np.zeros(2)
@@ -137,24 +137,22 @@ def roll(
     solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times, stretch)
     road = RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio))
     grip = Grip(friction.static_coefficient, *friction.kernel_arguments)
-    record = run_course(moves, road, solid, parts, grip, Solver(settings.tolerance, settings.most_sweeps))
-    return FacePass(body, time, *record)
+    scene = Scene(parts.nodes, solid, road, grip, Solver(settings.tolerance, settings.most_sweeps))
+    return FacePass(body, time, *run_course(moves, scene, parts))
 
 
-def run_course(
-    moves: Course, road: RoadMotion, solid: Solid, parts: FaceOperators, grip: Grip, solver: Solver
-) -> Record:
+def run_course(moves: Course, scene: Scene, parts: FaceOperators) -> Record:
     """Run a block along a course and return the record."""
-    steps, n, terms = moves.time.size, parts.nodes.area.size, solid.moduli.size
+    steps, n, terms = moves.time.size, scene.face.area.size, scene.solid.moduli.size
     record = Record(
         np.zeros((steps, n, 3)), np.zeros((steps, n, 3)), np.zeros((steps, n), dtype=np.int64),
         np.zeros(steps, dtype=np.int64),
     )  # fmt: skip
     state, work = fresh_state(n, terms), scratch(n, terms)
-    start(pose_at(moves, 0), solid, state)
+    start(pose_at(moves, 0), scene.solid, state)
     at = 1
     while True:
-        at, a, b = march(at, moves, road, solid, parts.nodes, parts.windows, grip, solver, state, work, record)
+        at, a, b = march(at, moves, scene, parts.windows, state, work, record)
         if at == steps:
             return record
         parts.add(a, b)
@@ -173,15 +171,15 @@ def step_times(path: Path, size: float, settings: CoupledSettings) -> Array:
     travel = [-2.0 * fine]
     end = total + 3.0 * size
     step = fine
-    while travel[-1] < end - 1e-9:
-        here = travel[-1]
+    while travel[-1] < end - 1e-3 * fine:
+        here = travel[-1] + 1e-3 * fine  # rounding does not decide on a step
         if quiet[0] <= here < quiet[1] - fine:
             step = min(step * 1.4, longest, max(quiet[1] - here, fine))
         elif down[0] <= here < down[1]:
             step = settings.middle_step * size
         else:
             step = fine
-        travel.append(min(here + step, end) if here + step < end else end)
+        travel.append(min(travel[-1] + step, end))
     return np.array(travel) / path.speed
 
 

@@ -11,9 +11,8 @@ import math
 import numpy as np
 
 from ...kernels import kernel
-from ..inputs import Grip
 from .contact import Nodes, Tempo, solve_contact
-from .inputs import FREE, STICK, Array, FaceNodes, FaceState, Pose, RoadMotion, Scratch, Singles, Solid, Solver
+from .inputs import FREE, STICK, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Solid
 
 SUNK = 1e-9
 """A node outside the window that stands deeper in the road than this (m) asks for a wider window."""
@@ -26,13 +25,12 @@ def start(pose: Pose, solid: Solid, state: FaceState) -> None:
 
 
 @kernel()
-def approach(
-    pose: Pose, road: RoadMotion, solid: Solid, state: FaceState, dt: float, work: Scratch
-) -> tuple[float, int, int]:
+def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratch) -> tuple[float, int, int]:
     """Write first guess, target and road normal of every node to `work`.
 
     Returns dq/dw over the step (Pa), the first node that touches or may touch, and the last one plus 1 (0, 0: none).
     """
+    solid, road = scene.solid, scene.road
     n, terms = state.w.shape[0], solid.moduli.size
     cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
     stiffening = solid.long_term
@@ -97,17 +95,7 @@ def approach(
 
 
 @kernel()
-def hold(
-    operator: Singles,
-    begin: int,
-    end: int,
-    face: FaceNodes,
-    grip: Grip,
-    solver: Solver,
-    tempo: Tempo,
-    state: FaceState,
-    work: Scratch,
-) -> int:
+def hold(operator: Singles, begin: int, end: int, scene: Scene, tempo: Tempo, state: FaceState, work: Scratch) -> int:
     """Solve the contact of the nodes begin..end with the window's `operator`; return the number of sweeps.
 
     Nodes outside are free of force, and their q follows from the forces.
@@ -124,23 +112,23 @@ def hold(
         q = work.q[begin:end]
         force = state.force[begin:end]
         _product(operator, q.ravel().astype(np.float32), force)
-        nodes = Nodes(
-            q, force, work.target[begin:end], work.normal[begin:end], face.area[begin:end], work.before[begin:end],
-            state.code[begin:end],
-        )  # fmt: skip
-        sweeps = solve_contact(operator, nodes, tempo, grip, solver, state.scale[0])
+        area = scene.face.area[begin:end]
+        codes = state.code[begin:end]
+        nodes = Nodes(q, force, work.target[begin:end], work.normal[begin:end], area, work.before[begin:end], codes)
+        sweeps = solve_contact(operator, nodes, tempo, scene.grip, scene.solver, state.scale[0])
         for i in range(begin, end):
             if state.code[i] == FREE:
                 state.force[i] = 0.0
-    _follow(face.compliance, state.code, state.force, begin, end, work.q)
+    _follow(scene.face.compliance, state.code, state.force, begin, end, work.q)
     return sweeps
 
 
 @kernel()
 def widest(
-    pose: Pose, road: RoadMotion, solid: Solid, state: FaceState, tempo: Tempo, begin: int, end: int, work: Scratch
+    pose: Pose, scene: Scene, state: FaceState, tempo: Tempo, begin: int, end: int, work: Scratch
 ) -> tuple[int, int]:
     """Return a window that also holds the nodes outside begin..end that the solution would sink into the road."""
+    solid, road = scene.solid, scene.road
     cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
     n = state.w.shape[0]
     first, last = (begin, end) if end > begin else (n, 0)
@@ -217,7 +205,7 @@ def _product(matrix: Singles, vector: Singles, out: Array) -> None:
 
 
 @kernel(reorder=True)
-def _follow(compliance: Singles, code: Array, force: Array, begin: int, end: int, q: Array) -> None:
+def _follow(compliance: Singles, code: Integers, force: Array, begin: int, end: int, q: Array) -> None:
     """Set q of every free node to what the forces on the nodes begin..end make of it."""
     columns = slice(3 * begin, 3 * end)
     load = force.ravel()[columns].astype(np.float32)
