@@ -81,7 +81,7 @@ NAMES = {
     "time_limit_s": _size(1e7, "s"),
     "cutoff_Hz": _size(1e6, "Hz"),
     "highest_frequency_Hz": _size(1e5, "Hz"),
-    "static_coefficient": Bound(0.0, 5.0, open=True),
+    "static_coefficient": Bound(0.0, 5.0),
     "kinetic_coefficient": Bound(0.0, 5.0),
     "slipping_fraction": Bound(0.0, 1.0),
     "alpha": _either_way(1e3),

@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 from numpy.typing import NDArray
 
 from .. import provenance
 from ..errors import EngineError, one_line
-from ..files import read_text, write_text
+from ..files import read_text
 from ..history import History
+from ..yaml_text import write_yaml
 from .subset import ElasticDeck, read_elastic_deck
 from .write import Resolution, dialect
 
@@ -51,7 +51,7 @@ class CalculixResult:
         target.with_suffix(".yaml").unlink(missing_ok=True)
         self.history.write_csv(target)
         record = {**self.record, "history_sha256": provenance.sha256_file(target)}
-        write_text(target.with_suffix(".yaml"), yaml.safe_dump(record, sort_keys=False, width=110))
+        write_yaml(target.with_suffix(".yaml"), record)
 
 
 def run_deck(

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from ..errors import InputError
 from ..files import read_text, write_text
+from ..model_file import first_fault
+from ..yaml_text import load_yaml
 from .document import CaseFile
 
 
@@ -24,12 +25,11 @@ def case_json(document: CaseFile) -> str:
 
 def read_case(path: Path | str) -> CaseFile:
     """Read a case file; raises `InputError` for what is none."""
+    text = read_text(path)
     try:
-        return CaseFile.model_validate_json(read_text(path))
+        return CaseFile.model_validate_json(text)
     except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-        key = ".".join(str(part) for part in fault["loc"]) or "the whole file"
-        raise InputError(f"{path}: {key}", fault.get("input"), fault["msg"].removeprefix("Input should be ")) from None
+        raise first_fault(error, path, load_yaml(text, path)) from None
 
 
 def case_schema() -> str:

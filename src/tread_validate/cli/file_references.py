@@ -21,23 +21,21 @@ def command(
     Example: tread-validate file-references results/fe/embedded/*.csv --convergence reference_data/fe/mesh
     """
     import pandas as pd
-    import yaml
 
     from ..compare.scores.energy import energy_shares
     from ..errors import InputError
-    from ..files import read_text, write_bytes, write_text
+    from ..files import write_bytes
     from ..provenance import sha256_file
     from ..reference import fe_path
+    from ..yaml_text import read_mapping, write_yaml
 
     errors = {}
     for kind in ("rig", "belt") if convergence is not None else ():
-        errors[kind] = yaml.safe_load(read_text(Path(str(convergence)) / f"{kind}.yaml"))
+        errors[kind] = read_mapping(Path(str(convergence)) / f"{kind}.yaml")
     filed = 0
     for history in histories or []:
         record_file = history.with_suffix(".yaml")
-        record = yaml.safe_load(read_text(record_file))
-        if not isinstance(record, dict):
-            raise InputError(record_file, type(record).__name__, "a record: a mapping of keys")
+        record = read_mapping(record_file)
         digest = sha256_file(history)
         if record.get("history_sha256") != digest:
             raise InputError(record_file, "another checksum", f"history_sha256 {digest[:12]}... of {history.name}")
@@ -55,6 +53,6 @@ def command(
         if face.is_file():
             write_bytes(target.with_name(f"{case_id}_face.csv"), face.read_bytes())
         write_bytes(target, history.read_bytes())
-        write_text(target.with_suffix(".yaml"), yaml.safe_dump(record, sort_keys=False))
+        write_yaml(target.with_suffix(".yaml"), record)
         filed += 1
     typer.echo(f"{filed} runs of engine {engine} filed under {references / 'fe' / engine}")

@@ -27,13 +27,12 @@ def command(
 
     Example: tread-validate ladder config/study.yaml --decks fe_inputs -o results/ladder
     """
-    import yaml
 
     from ..errors import InputError
-    from ..files import write_text
     from ..ladder.build import PARTS, Folders, build
     from ..provenance import commit, version
     from ..study import conditions_digest, load_study
+    from ..yaml_text import write_yaml
 
     if samples & (samples - 1):
         raise InputError("--samples", samples, "a power of two")
@@ -47,7 +46,7 @@ def command(
         "commit": commit(),
         "sobol_base_sample": samples,
     }
-    write_text(output / "record.yaml", yaml.safe_dump(record, sort_keys=False))
+    write_yaml(output / "record.yaml", record)
     for row in tables.get("pareto", []):
         error = row["mean_abs_peak_normal_force_error"]
         told = "no current reference" if error is None else f"mean error of peak N {100 * error:.1f} %"

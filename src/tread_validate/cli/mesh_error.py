@@ -26,13 +26,12 @@ def command(
 
     Example: tread-validate mesh-error 2p0.csv 1p0.csv 0p5.csv --size 2 --size 1 --size 0.5 --kind rig -o rig.yaml
     """
-    import yaml
 
     from ..compare.scores.convergence import convergence, history_errors
     from ..errors import InputError
-    from ..files import write_text
     from ..history import History
     from ..provenance import sha256_file
+    from ..yaml_text import write_yaml
 
     if len(histories) != 3 or len(size) != 3:
         raise InputError("mesh-error", f"{len(histories)} histories, {len(size)} sizes", "three of each")
@@ -69,7 +68,7 @@ def command(
             for name, item in results.items()
         },
     }
-    write_text(output, yaml.safe_dump(document, sort_keys=False))
+    write_yaml(output, document)
     typer.echo(f"{document['case_id']}: relative error that remains at {used:g} mm")
     for name, item in results.items():
         how = f"order {item.order:.2f}" if item.order is not None else "no order: scatter of the meshes"

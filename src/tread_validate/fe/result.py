@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from ..files import write_text
 from ..history import History
 from ..provenance import sha256_text
 from ..units import DECK_LENGTH, DECK_STRESS
+from ..yaml_text import write_yaml
 from .energy import COLUMNS as ENERGY_COLUMNS
 from .explicit import Simulation
 
@@ -64,7 +64,7 @@ class FeResult:
         text = self.history.to_csv()
         write_text(target, text)
         record = {**self.record, "history_sha256": sha256_text(text)}
-        write_text(record_file, yaml.safe_dump(record, sort_keys=False))
+        write_yaml(record_file, record)
 
 
 def collect(simulation: Simulation, record: Mapping[str, Any], provenance: Mapping[str, str]) -> FeResult:

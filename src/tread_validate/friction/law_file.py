@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from ..errors import InputError, one_line
-from ..files import read_text
+from ..errors import one_line
+from ..model_file import read_model
 from ..units import KPA, MM
-from ..yaml_text import load_yaml
 from .laws.huemer import Huemer
 
 if TYPE_CHECKING:
@@ -37,15 +36,7 @@ def friction_schema() -> dict[str, Any]:
 
 def read_friction(path: Path | str) -> FrictionFile:
     """Read a friction file; raises `InputError` with the key that is wrong."""
-    data = load_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, type(data).__name__, "a mapping of keys")
-    try:
-        return FrictionFile.model_validate(data)
-    except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-        key = ".".join(str(part) for part in fault["loc"]) or "the whole file"
-        raise InputError(f"{path}: {key}", one_line(repr(fault.get("input")), 80), one_line(fault["msg"])) from None
+    return read_model(path, FrictionFile)
 
 
 def quality(fit: FrictionFit) -> dict[str, float | int | str | None]:

@@ -6,13 +6,13 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-import yaml
 from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..files import read_text
 from ..provenance import sha256_file
 from ..units import MM
+from ..yaml_text import read_mapping
 from .trace_import import read_raw_trace
 
 Array = NDArray[np.float64]
@@ -36,11 +36,7 @@ def read_belt_trace(file: Path, trace: str) -> tuple[Array, Array]:
 @lru_cache(maxsize=32)
 def _read(file: Path, trace: str, digest: str) -> tuple[Array, Array]:
     """Parse once per content: `digest` is there for the cache."""
-    try:
-        data = yaml.load(read_text(file), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError as error:
-        raise InputError(file, str(error), "valid YAML") from None
-    traces = data.get("traces") if isinstance(data, dict) else None
+    traces = read_mapping(file, fast=True).get("traces")
     if not isinstance(traces, dict):
         raise InputError(f"{file}: traces", "nothing", "a mapping of trace names")
     if trace not in traces:

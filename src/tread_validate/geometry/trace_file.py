@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..files import read_text, write_text
+from ..files import write_text
 from ..units import MM
-from ..yaml_text import load_yaml
+from ..yaml_text import read_yaml
 from .trace import LevelledTrace, RidgeHeights
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ def write_belt(
 
 def read_belt(path: Path | str) -> dict[str, tuple[Array, Array]]:
     """Return x and height in m of every trace of a belt file: ``{name: (x, height)}``, each (n,)."""
-    data = load_yaml(read_text(path), path)
+    data = read_yaml(path)
     if not isinstance(data, dict) or not isinstance(data.get("traces"), dict) or not data["traces"]:
         raise InputError(f"{path}: traces", "nothing", "a mapping of trace names to x_mm and height_mm")
     found: dict[str, tuple[Array, Array]] = {}

@@ -10,7 +10,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, Literal
 
-import yaml
+from ..yaml_text import load_yaml
 
 Place = Literal["model", "step", "any"]
 
@@ -75,8 +75,7 @@ def _keyword(entry: dict[str, Any]) -> Keyword:
 def keywords(dialect: str = "abaqus") -> dict[str, Keyword]:
     """Return every keyword of a dialect (``abaqus`` or ``calculix``) by its full name."""
     text = (files("tread_validate.inp") / "keywords.yaml").read_text(encoding="utf-8")
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    content = yaml.load(text, Loader=loader)
+    content = load_yaml(text, "keywords.yaml", fast=True)
     found = {name: _keyword(entry) for name, entry in content["keywords"].items()}
     for group, listed in content["named"].items():
         if group == "calculix" and dialect != "calculix":

@@ -9,14 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 
 from ..compare import MetricRow, compare
 from ..compare.runs import Runs
 from ..errors import InputError
-from ..files import read_text
 from ..spring import run
 from ..study import Case
+from ..yaml_text import read_mapping
 
 RUNGS = ("paper", "bonded_theory", "bonded", "coupled_coarse", "coupled")
 GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
@@ -253,7 +252,6 @@ def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
 
 def _record(path: Path) -> Mapping[str, Any]:
     try:
-        data = yaml.safe_load(read_text(path))
-    except (InputError, yaml.YAMLError):
+        return read_mapping(path)
+    except InputError:
         return {}
-    return data if isinstance(data, dict) else {}

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from ..errors import InputError, one_line
-from ..files import read_text, write_text
-from ..study import PronyCompound, Wlf, load_yaml
+from ..files import write_text
+from ..model_file import read_model
+from ..study import PronyCompound, Wlf
 from ..units import MPA
 from .prony import PronySeries
 from .wlf import relative_shift
@@ -64,15 +65,7 @@ def material_schema() -> dict[str, Any]:
 
 def read_material(path: Path | str) -> MaterialFile:
     """Read a material file; raises `InputError` with the key that is wrong."""
-    data = load_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, type(data).__name__, "a mapping of keys")
-    try:
-        return MaterialFile.model_validate(data)
-    except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-        key = ".".join(str(part) for part in fault["loc"]) or "the whole file"
-        raise InputError(f"{path}: {key}", one_line(repr(fault.get("input")), 80), one_line(fault["msg"])) from None
+    return read_model(path, MaterialFile)
 
 
 def material_yaml(

@@ -8,12 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-import yaml
-
 from ..errors import InputError, one_line
-from ..files import read_text
 from ..history import History
 from ..provenance import sha256_file
+from ..yaml_text import read_mapping
 
 Status = Literal["current", "stale", "missing", "corrupt"]
 MESH_ERROR_KEYS = ("mesh_error", "mesh_error_estimate")
@@ -91,14 +89,10 @@ def load_fe(folder: Path | str, engine: str, case_id: str, deck_digest: str | No
     if not record_file.is_file():
         return bad("corrupt", f"{source.name} without its record")
     try:
-        record = yaml.safe_load(read_text(record_file))
+        record = read_mapping(record_file)
         history = History.read_csv(source)
     except InputError as error:
         return bad("corrupt", str(error))
-    except yaml.YAMLError as error:
-        return bad("corrupt", f"{record_file.name}: {getattr(error, 'problem', error)}")
-    if not isinstance(record, dict):
-        return bad("corrupt", f"{record_file.name}: no mapping of keys")
     digest = sha256_file(source)
     if record.get("history_sha256") != digest:
         return bad("corrupt", f"{source.name}: checksum is not that of its record", record=record)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from ..errors import InputError, one_line
-from ..files import read_text
+from ..yaml_text import read_yaml
 
 DESCRIPTOR = "datapackage.yaml"
 SOURCED = ("origin", "license", "sources", "uncertainty")
@@ -17,12 +15,7 @@ SOURCED = ("origin", "license", "sources", "uncertainty")
 def load_descriptor(folder: Path | str) -> dict[str, Any]:
     """Read ``datapackage.yaml``; raises `InputError` where it is no mapping with a list of resources."""
     source = Path(folder) / DESCRIPTOR
-    try:
-        data = yaml.safe_load(read_text(source))
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        where = f"{source}:{mark.line + 1}" if mark is not None else source
-        raise InputError(where, getattr(error, "problem", error), "well-formed YAML") from None
+    data = read_yaml(source)
     if not isinstance(data, dict) or not isinstance(data.get("resources"), list) or not data["resources"]:
         raise InputError(f"{source}: resources", "nothing", "a list of at least one resource")
     for index, resource in enumerate(data["resources"]):

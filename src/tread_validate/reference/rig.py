@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, one_line
-from ..files import read_text, write_text
+from ..files import write_text
 from ..history import History
 from ..provenance import sha256_file
-from ..yaml_text import load_yaml
+from ..yaml_text import read_yaml
 from .rig_passes import RigPasses, Spread
 
 PEAKS = "peaks.csv"
@@ -148,7 +148,7 @@ def load_rig(folder: Path | str) -> tuple[RigReference, ...]:
     """Return every imported record of a folder, by name; raises `InputError` for a damaged one."""
     found = []
     for path in sorted(Path(folder).glob("*.yaml")):
-        record = load_yaml(read_text(path), path)
+        record = read_yaml(path)
         if not isinstance(record, dict) or "history" not in record:
             raise InputError(path, "no history", "a record as `tread-validate import-rig` writes it")
         history = path.parent / Path(str(record["history"])).name

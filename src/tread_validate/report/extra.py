@@ -9,8 +9,8 @@ from typing import Any
 import pandas as pd
 
 from ..errors import InputError
-from ..files import read_text
-from ..study import LoadedStudy, conditions_digest, load_yaml
+from ..study import LoadedStudy, conditions_digest
+from ..yaml_text import read_yaml
 from . import wording
 from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table
 from .inputs import plain_table
@@ -69,7 +69,7 @@ def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: 
 
 
 def _record(path: Path) -> dict[str, Any]:
-    record = load_yaml(read_text(path), path)
+    record = read_yaml(path)
     if not isinstance(record, dict) or not {"study", "study_digest"} <= set(record):
         raise InputError(path, "no such record", "a mapping with study and study_digest")
     return record
@@ -117,7 +117,7 @@ def mesh_table(reference: Path) -> Table | None:
     rows: list[Row] = []
     widest = 0
     for file in sorted((reference / "mesh").glob("*.yaml")):
-        data = load_yaml(read_text(file), file)
+        data = read_yaml(file)
         if not isinstance(data, dict) or not isinstance(data.get("quantities"), dict):
             raise InputError(file, "no quantities", "a mesh study, as `tread-validate mesh-error` writes it")
         sizes = [f"{size:g} mm" for size in data.get("sizes_mm", [])]

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from ..errors import InputError, one_line
 from ..fields import Name, NonNegative, Positive, Sourced, Strict
-from ..files import read_text
+from ..model_file import read_model
 from ..units import MM
-from ..yaml_text import load_yaml
 
 MOST_BLOCKS = 5_000
 CLOSURE = 1e-9  # relative: ribs of one tyre have one circumference
@@ -115,18 +113,4 @@ class PitchSequence(Sourced):
 
 def load_pitch_sequence(path: Path | str) -> PitchSequence:
     """Read a pitch sequence (YAML); every fault is one `InputError` line with the key that is wrong."""
-    data = load_yaml(read_text(path), path)
-    if not isinstance(data, dict):
-        raise InputError(path, type(data).__name__, "a mapping of keys")
-    try:
-        return PitchSequence.model_validate(data)
-    except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-    message = fault["msg"].removeprefix("Value error, ")
-    if fault["type"] == "value_error" and ": got " in message and ", expected " in message:
-        key, _, rest = message.partition(": got ")
-        found, _, expected = rest.partition(", expected ")
-        raise InputError(f"{path}: {key}", found, expected)
-    key = ".".join(str(part) for part in fault["loc"]) or "file"
-    expected = one_line(message, 120).removeprefix("Input should be ")
-    raise InputError(f"{path}: {key}", one_line(repr(fault.get("input")), 60), expected)
+    return read_model(path, PitchSequence)

@@ -8,11 +8,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import ValidationError
-
-from ..errors import InputError
 from ..fields import Label, Numerics, Sourced
 from ..friction import Friction
+from ..model_file import as_model
 from ..units import MM, PERCENT
 from .block import Block
 from .compound import Compound
@@ -142,14 +140,7 @@ def with_mesh(case: Case, settings: Mapping[str, object]) -> Case:
     """Return the case with some deck settings changed (``element_size_mm``, ``layers``); they are validated anew."""
     if not settings:
         return case
-    try:
-        deck = DeckSettings.model_validate({**case.deck.model_dump(), **settings})
-    except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-        raise InputError(
-            f"deck.{fault['loc'][0]}", fault["input"], fault["msg"].removeprefix("Input should be ")
-        ) from None
-    return replace(case, deck=deck)
+    return replace(case, deck=as_model({**case.deck.model_dump(), **settings}, DeckSettings, "deck"))
 
 
 def conditions_digest(cases: Iterable[Case]) -> str:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-from pydantic import ValidationError
 
 from ..errors import InputError, one_line
 from ..files import read_text
+from ..model_file import as_model
 from ..provenance import sha256_text
 from ..yaml_text import load_yaml
 from .case import Case
@@ -52,13 +50,7 @@ def load_study(path: Path | str) -> LoadedStudy:
     text = read_text(source)
     if len(text) > LARGEST_FILE:
         raise InputError(source, f"{len(text)} characters", f"at most {LARGEST_FILE}")
-    data = load_yaml(text, source)
-    if not isinstance(data, dict):
-        raise InputError(source, type(data).__name__, "a mapping of keys")
-    try:
-        model = Study.model_validate(data)
-    except ValidationError as error:
-        raise _first_fault(error, source, data) from None
+    model = as_model(load_yaml(text, source), Study, source)
     root = source.resolve().parent
     if root.name == "config":
         root = root.parent
@@ -73,52 +65,3 @@ def load_study(path: Path | str) -> LoadedStudy:
             if file is not None and not (root / file).is_file():
                 raise InputError(f"{source}: {section}.{name}.file", file, f"an existing file below {root.name}/")
     return study
-
-
-def _first_fault(error: ValidationError, source: Path, data: dict[str, Any]) -> InputError:
-    """Turn pydantic's list into one line about the first fault."""
-    faults = error.errors(include_url=False)
-    # a union reports every branch: prefer the fault that lies deepest and is not about a sibling type
-    fault = max(faults, key=lambda item: (_reachable(item["loc"], data), -faults.index(item)))
-    where = f"{source}: {_key(fault['loc'], data)}"
-    kind = fault["type"]
-    if kind == "extra_forbidden":
-        return InputError(where, "an unknown key", "a key of the study's schema (misspelt?)")
-    if kind == "missing":
-        return InputError(where, "nothing", "a value (the key is missing)")
-    if kind == "value_error":
-        message = fault["msg"].removeprefix("Value error, ")
-        if ": got " in message and ", expected " in message:
-            key, _, rest = message.partition(": got ")
-            found, _, expected = rest.partition(", expected ")
-            return InputError(f"{source}: {key}", found, expected)
-        return InputError(where, "values that do not fit", message)
-    found = fault.get("input")
-    shown = one_line(repr(found), 80)
-    return InputError(
-        where, shown, one_line(fault["msg"]).removeprefix("Input should be ").replace("Input should", "it to")
-    )
-
-
-def _reachable(location: tuple[int | str, ...], data: Any) -> int:
-    return len(_keys(location, data))
-
-
-def _keys(location: tuple[int | str, ...], data: Any) -> list[int | str]:
-    """Keep the parts of pydantic's location that are keys of the file, not names of union branches."""
-    kept: list[int | str] = []
-    for position, part in enumerate(location):
-        here = isinstance(part, int) and isinstance(data, list) and part < len(data)
-        if here or (isinstance(data, dict) and part in data):
-            kept.append(part)
-            data = data[part]
-        elif position == len(location) - 1 and isinstance(data, dict):
-            kept.append(part)
-    return kept
-
-
-def _key(location: tuple[int | str, ...], data: Any) -> str:
-    text = ""
-    for part in _keys(location, data):
-        text += f"[{part}]" if isinstance(part, int) else (f".{part}" if text else str(part))
-    return one_line(text or "the whole file", 120)

@@ -10,11 +10,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from ...errors import InputError, one_line
 from ...files import read_text, write_text
 from ...provenance import sha256_text
+from ...yaml_text import read_mapping, write_yaml
 from ..tables.text import table_text
 from .rows import ROW_COLUMNS, BaselineRow
 
@@ -63,7 +62,7 @@ def save_baseline(folder: Path | str, baseline: Baseline) -> None:
         "rows_sha256": sha256_text(text),
     }
     write_text(place / ROWS, text)
-    write_text(place / RECORD, yaml.safe_dump(record, sort_keys=False, allow_unicode=True, width=110))
+    write_yaml(place / RECORD, record)
 
 
 def load_baseline(folder: Path | str) -> Baseline:
@@ -102,12 +101,7 @@ def same_study(baseline: Baseline, tables: Path | str) -> None:
 
 
 def _record(path: Path) -> dict[str, Any]:
-    try:
-        record = yaml.safe_load(read_text(path))
-    except yaml.YAMLError as error:
-        raise InputError(path, getattr(error, "problem", error), "well-formed YAML") from None
-    if not isinstance(record, dict):
-        raise InputError(path, type(record).__name__, "a mapping of keys")
+    record = read_mapping(path)
     if record.get("schema_version") != SCHEMA_VERSION:
         raise InputError(
             f"{path}: schema_version", record.get("schema_version"), f"{SCHEMA_VERSION}; accept a new baseline"

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import yaml
-
-from ...files import read_text
 from ...study import Case
+from ...yaml_text import read_yaml
 from .claim import Compute, Computed, Evidence, is_measured, nothing
 
 BELT, RIG = "belt", "rig"
@@ -38,7 +36,7 @@ def _belt_file(key: str) -> Compute:
         for case in evidence.belt_cases():
             if is_measured(case):
                 path = case.root / str(getattr(case.path, "file", ""))
-                data = yaml.safe_load(read_text(path)) if path.suffix in (".yaml", ".yml") else None
+                data = read_yaml(path) if path.suffix in (".yaml", ".yml") else None
                 if not isinstance(data, dict):
                     return nothing("the study's trace is not a belt file")
                 number = len(data["traces"]) if key == "traces" and "traces" in data else data.get(key)

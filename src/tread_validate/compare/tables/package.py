@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
-from ...files import write_text
 from ...provenance import sha256_file
+from ...yaml_text import write_yaml
 from .catalogue import TABLES
 from .row import Column, Row
 
@@ -25,7 +23,7 @@ def write_package(folder: Path, study: str, commit: str) -> None:
         "description": f"Made by tread-validate, code {commit}. Units are SI unless a column says otherwise.",
         "resources": [resource for resource in resources if resource],
     }
-    write_text(folder / PACKAGE, yaml.safe_dump(package, sort_keys=False, allow_unicode=True, width=110))
+    write_yaml(folder / PACKAGE, package)
 
 
 def schema(kind: type[Row]) -> dict[str, Any]:

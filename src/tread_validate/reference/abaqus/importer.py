@@ -8,13 +8,12 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-import yaml
 from numpy.typing import NDArray
 
 from ... import provenance
 from ...errors import InputError
-from ...files import read_text, write_text
 from ...history import History
+from ...yaml_text import read_mapping, write_yaml
 from ..fe_store import fe_path
 from .deck_facts import DeckFacts, deck_facts
 from .tables import Table, read_table
@@ -158,7 +157,7 @@ def write(imported: Imported, path: Path | str) -> None:
     target.with_suffix(".yaml").unlink(missing_ok=True)
     imported.history.write_csv(target)
     record = {**imported.record, "history_sha256": provenance.sha256_file(target)}
-    write_text(target.with_suffix(".yaml"), yaml.safe_dump(record, sort_keys=False, allow_unicode=True, width=110))
+    write_yaml(target.with_suffix(".yaml"), record)
 
 
 def _identity(table: Table, facts: DeckFacts, choice: Options) -> list[str]:
@@ -315,10 +314,4 @@ def _plausible(
 
 def read_record(path: Path | str) -> dict[str, Any]:
     """Read a record; raises `InputError` where it is no mapping."""
-    try:
-        record = yaml.safe_load(read_text(path))
-    except yaml.YAMLError as error:
-        raise InputError(path, getattr(error, "problem", error), "well-formed YAML") from None
-    if not isinstance(record, dict):
-        raise InputError(path, type(record).__name__, "a mapping of keys")
-    return record
+    return read_mapping(path)

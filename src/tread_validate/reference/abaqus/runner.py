@@ -15,12 +15,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import yaml
-from pydantic import Field, ValidationError
+from pydantic import Field
 
-from ...errors import EngineError, InputError, one_line
+from ...errors import EngineError, one_line
 from ...fields import NonNegative, Positive, Strict
-from ...files import read_text
+from ...model_file import as_model
+from ...yaml_text import read_mapping
 from .importer import Imported, import_history
 
 EXTRACTION_SCRIPT = Path(__file__).parent / "scripts" / "extract_odb.py"
@@ -65,19 +65,7 @@ def load_settings(path: Path | str | None) -> Settings:
     """
     if path is None:
         return Settings.model_validate({})
-    try:
-        data = yaml.safe_load(read_text(path))
-    except yaml.YAMLError as error:
-        raise InputError(path, getattr(error, "problem", error), "well-formed YAML") from None
-    section = data.get("abaqus", {}) if isinstance(data, dict) else None
-    if not isinstance(section, dict):
-        raise InputError(f"{path}: abaqus", type(data).__name__, "a mapping of settings")
-    try:
-        return Settings.model_validate(section)
-    except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-    key = ".".join(str(part) for part in fault["loc"])
-    raise InputError(f"{path}: abaqus.{key}", one_line(repr(fault.get("input")), 60), one_line(fault["msg"], 120))
+    return as_model(read_mapping(path).get("abaqus", {}), Settings, f"{path}: abaqus")
 
 
 def run_abaqus(
