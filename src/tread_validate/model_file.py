@@ -18,23 +18,23 @@ def read_model(path: Path | str, model: type[Model]) -> Model:
     return as_model(read_yaml(path), model, path)
 
 
-def as_model(data: Any, model: type[Model], where: object) -> Model:
-    """Return data, a mapping of keys, as `model`; `where` is the file, or file and key, that they come from."""
+def as_model(data: Any, model: type[Model], where: object, section: str = "") -> Model:
+    """Return data, a mapping of keys, as `model`; `where` is the file that they come from, `section` the key in it."""
     if not isinstance(data, dict):
-        raise InputError(where, type(data).__name__, "a mapping of keys")
+        raise InputError(f"{where}: {section}" if section else where, type(data).__name__, "a mapping of keys")
     try:
         return model.model_validate(data)
     except ValidationError as error:
-        raise first_fault(error, where, data) from None
+        raise first_fault(error, where, data, section) from None
 
 
-def first_fault(error: ValidationError, where: object, data: Any) -> InputError:
+def first_fault(error: ValidationError, where: object, data: Any, section: str = "") -> InputError:
     """Turn pydantic's list of faults into one line about the first: file and key, what stands there, what should."""
-    source = str(where)
+    source = f"{where}: {section}." if section else f"{where}: "
     faults = error.errors(include_url=False)
     # a union reports every branch: prefer the fault that lies deepest and is not about a sibling type
     fault = max(faults, key=lambda item: (_reachable(item["loc"], data), -faults.index(item)))
-    place = f"{source}: {_key(fault['loc'], data)}"
+    place = f"{source}{_key(fault['loc'], data)}"
     kind = fault["type"]
     if kind == "extra_forbidden":
         return InputError(place, "an unknown key", "a key of the file's schema (misspelt?)")
@@ -45,7 +45,7 @@ def first_fault(error: ValidationError, where: object, data: Any) -> InputError:
         if ": got " in message and ", expected " in message:
             key, _, rest = message.partition(": got ")
             found, _, expected = rest.partition(", expected ")
-            return InputError(f"{source}: {key}", found, expected)
+            return InputError(f"{source}{key}", found, expected)
         return InputError(place, "values that do not fit", message)
     found = fault.get("input")
     shown = one_line(repr(found), 80)

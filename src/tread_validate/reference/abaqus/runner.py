@@ -65,7 +65,7 @@ def load_settings(path: Path | str | None) -> Settings:
     """
     if path is None:
         return Settings.model_validate({})
-    return as_model(read_mapping(path).get("abaqus", {}), Settings, f"{path}: abaqus")
+    return as_model(read_mapping(path).get("abaqus", {}), Settings, path, "abaqus")
 
 
 def run_abaqus(
