@@ -16,8 +16,9 @@ from tread_validate.model_file import read_model
 from tread_validate.yaml_text import load_yaml, read_mapping, write_yaml, yaml_text
 
 KEYS = st.text(st.characters(categories=["L", "N"]), min_size=1, max_size=8)
+LINES = st.text(st.characters(exclude_categories=["C", "Zl", "Zp"]), max_size=12)  # what stands on one line
 DATA = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=12),
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | LINES,
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=3),
     max_leaves=8,
 )
