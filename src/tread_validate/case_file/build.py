@@ -44,7 +44,7 @@ def case_file(case: Case) -> doc.CaseFile:
     return doc.CaseFile(
         case_id=case.case_id,
         study=case.study_name,
-        case_digest=case.digest(),
+        case_digest=case.problem_digest(),
         temperature_degC=case.temperature,
         interference_m=_short(case.interference),
         speed_m_s=_short(case.speed),

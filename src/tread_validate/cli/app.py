@@ -32,6 +32,8 @@ VERBS = {
     "lint": "lint",
     "fe": "fe",
     "spring": "spring",
+    "model": "model",
+    "new-model": "new_model",
     "compare": "compare",
     "regress": "regress",
     "tables": "tables",

@@ -21,12 +21,12 @@ def command(
 
     Example: tread-validate case config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm -o case.json
     """
-    from ..case_file import case_file
+    from ..case_file.build import case_file
     from ..case_file.io import case_json
     from ..errors import InputError
     from ..files import write_text
     from ..spring import resolve_creep
-    from ..study import conditions_digest, load_study
+    from ..study import load_study, problems_digest
 
     if bool(case) == every:
         raise InputError("case", "both --case and --all" if every else "neither --case nor --all", "one of the two")
@@ -41,4 +41,4 @@ def command(
         return
     for case_id, text in texts.items():
         write_text(output if one_file else output / f"{case_id}.json", text)
-    typer.echo(f"{len(texts)} cases in {output}; conditions digest {conditions_digest(loaded.cases())}")
+    typer.echo(f"{len(texts)} cases in {output}; problems digest {problems_digest(loaded.cases())}")

@@ -26,7 +26,7 @@ def command(
 
         text = study_schema()
     elif kind == "case":
-        from ..case_file import case_schema
+        from ..case_file.io import case_schema
 
         text = case_schema()
     elif kind == "material":

@@ -1,5 +1,6 @@
 """Comparison of runs with their references: rows, ensembles, regressions, claims, tables and the baseline."""
 
+from ..callable_module import make_callable
 from .build import build_tables, write_tables
 from .quantities import Scalars, contact_window, scalars
 from .regression.line import regress
@@ -13,3 +14,5 @@ __all__ = [
     "Comparison", "MetricRow", "Scalars", "bias_and_scatter", "build_tables", "compare",
     "compare_study", "contact_window", "empty_rows", "regress", "scalars", "verdict", "write_tables",
 ]  # fmt: skip
+
+make_callable(__name__, "tread_validate.api:compare")

@@ -3,7 +3,7 @@
 from ..friction import Coulomb, Friction, FrictionTable, Huemer, HuemerFile, Power
 from ..yaml_text import load_yaml
 from .block import Block, Sipe
-from .case import Case, conditions_digest, with_mesh
+from .case import Case, conditions_digest, problems_digest, with_mesh
 from .compound import (
     Compound,
     FitSettings,
@@ -23,5 +23,5 @@ __all__ = [
     "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FractionalZener", "Friction",
     "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "Power", "PronyCompound", "PronyFile",
     "PronyTerm", "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf",
-    "conditions_digest", "load_study", "load_yaml", "with_mesh",
+    "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
 ]  # fmt: skip

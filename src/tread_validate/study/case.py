@@ -146,3 +146,8 @@ def with_mesh(case: Case, settings: Mapping[str, object]) -> Case:
 def conditions_digest(cases: Iterable[Case]) -> str:
     """Return one SHA-256 for the conditions of all cases, in hex: labels do not change it."""
     return hashlib.sha256("\n".join(f"{case.case_id} {case.digest()}" for case in cases).encode()).hexdigest()
+
+
+def problems_digest(cases: Iterable[Case]) -> str:
+    """Return one SHA-256 for the physical problems of all cases, in hex: no solver's settings change it."""
+    return hashlib.sha256("\n".join(f"{case.case_id} {case.problem_digest()}" for case in cases).encode()).hexdigest()

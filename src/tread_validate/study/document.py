@@ -10,6 +10,7 @@ from ..fields import Label, Line, Name, Numerics, Strict
 from ..friction import Friction
 from .block import Block
 from .compound import Compound
+from .own_model import OwnModel
 from .path import Wheel
 from .run import Run
 from .settings import DeckSettings, SpringSettings
@@ -27,6 +28,9 @@ class Study(Strict):
     blocks: Annotated[dict[Name, Block], Field(min_length=1)]
     paths: Annotated[dict[Name, Wheel], Field(min_length=1)]
     runs: Annotated[tuple[Run, ...], Field(min_length=1)]
+    models: Annotated[dict[Name, OwnModel], Label("which further models run; each result names its own code")] = Field(
+        {}, description="models of your own, by name: Python functions, commands, or histories made elsewhere"
+    )
     spring: Annotated[SpringSettings, Numerics("spring")] = SpringSettings()
     deck: Annotated[DeckSettings, Numerics("deck")] = DeckSettings()
     engine: Annotated[

@@ -9,7 +9,8 @@ import jsonschema
 import numpy as np
 import pytest
 
-from tread_validate.case_file import case_file, case_schema, read_case, write_case
+from tread_validate.case_file.build import case_file
+from tread_validate.case_file.io import case_schema, read_case, write_case
 from tread_validate.cli.app import run
 from tread_validate.errors import InputError
 from tread_validate.friction import law

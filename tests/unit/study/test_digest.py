@@ -16,6 +16,7 @@ from tread_validate.study.digest import label_of, marks
 from tread_validate.study.grid import expand
 
 SOURCED = {"origin": "assumed", "source": "for the test"}
+MODEL = {"description": "a model", "origin": "somebody"}
 EVERYTHING = {
     "schema_version": 1,
     "name": "everything",
@@ -64,6 +65,11 @@ EVERYTHING = {
         "wheel": SOURCED | {"kind": "rig", "big_wheel_diameter_mm": 800.0},
         "simplified": SOURCED | {"kind": "simplified_belt"},
         "measured": SOURCED | {"kind": "measured_belt", "file": "one.dat"},
+    },
+    "models": {
+        "function": MODEL | {"kind": "python", "object": "block:forces", "files": ["one.dat"]},
+        "command": MODEL | {"kind": "command", "command": "./run {case} {history}"},
+        "histories": MODEL | {"kind": "histories", "folder": "made", "made_for": "0" * 64, "statement": "of today"},
     },
     "runs": [
         {"name": name, "path": path, "block": block, "compound": compound, "friction": friction}
