@@ -12,7 +12,7 @@ from pathlib import Path
 
 from tread_validate.ladder.sensitivity import sobol_rows
 from tread_validate.spring import free_rolling_creep, run
-from tread_validate.spring.coupled.store import condensed, converged_ratios, stiffening
+from tread_validate.spring.coupled.store import converged_ratios, ready
 from tread_validate.study import load_study
 
 CASES = (
@@ -39,7 +39,7 @@ def main():
     for case_id in CASES:
         case = study.case(case_id)
         for rung in RUNGS:
-            for store in (condensed, converged_ratios, stiffening):
+            for store in (converged_ratios, ready):
                 store.cache_clear()
             begin = time.perf_counter()
             run(case, rung)

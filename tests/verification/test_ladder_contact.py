@@ -43,7 +43,7 @@ def press(body, face, time, depth, series, friction, slide=None, tolerance=1e-9)
     slide = np.zeros(time.size) if slide is None else slide
     origin = np.column_stack([slide, HEIGHT - depth])
     unloaded = np.broadcast_to(body.face, (time.size, *body.face.shape)).copy()
-    parts = FaceOperators(body, face)
+    parts = FaceOperators(body, lambda: face.stiffness)
     scene = Scene(
         parts.nodes,
         Solid(series.long_term_modulus, series.moduli, series.relaxation_times, np.zeros(2)),

@@ -27,6 +27,8 @@ class CoupledPass:
     case: Case
     settings: CoupledSettings
     step: float
+    creep_tolerance: float = 2e-6
+    """Creep ratios closer than this have one impulse, to the sweeps' tolerance."""
 
     def face(self, creep_ratio: float) -> FacePass:
         """Return the pass node by node, on the solver's own steps."""

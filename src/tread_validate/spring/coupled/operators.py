@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from .body import Body
-from .condense import FaceStiffness
-from .inputs import FaceNodes, Integers
+from .inputs import FaceNodes, Integers, Singles
 from .march import ROWS, Windows
 
 Array = NDArray[np.float64]
@@ -25,17 +28,48 @@ class FaceOperators:
     nodes : FaceNodes
     windows : Windows
         Replaced when one is added.
+
+    Parameters
+    ----------
+    body : Body
+    stiffness : callable
+        Returns the face's stiffness, (3 n, 3 n); asked for when the first window is made.
+    compliance : array, optional
+        Its inverse, where that is at hand.
     """
 
-    def __init__(self, body: Body, face: FaceStiffness) -> None:
-        self._stiffness = face.stiffness
-        self._compliance = inverse(face.stiffness)
+    def __init__(self, body: Body, stiffness: Callable[[], Array], compliance: Singles | None = None) -> None:
+        self._make_stiffness = stiffness
         row = rows_of(body)
         cells = int(row[-1]) // ROWS + 1
         first = np.searchsorted(row, ROWS * np.arange(cells + 1)).astype(np.int64)
-        self.nodes = FaceNodes(body.area, row, self._compliance.astype(np.float32))
+        if compliance is None:
+            compliance = self._compliance.astype(np.float32)
+        self.nodes = FaceNodes(body.area, row, compliance)
         self.windows = Windows(first, np.full((cells, cells + 1), -1, dtype=np.int64), np.zeros(0, dtype=np.float32))
         self._used = 0
+
+    @cached_property
+    def _stiffness(self) -> Array:
+        return self._make_stiffness()
+
+    @cached_property
+    def _compliance(self) -> Array:
+        return inverse(self._stiffness)
+
+    @property
+    def count(self) -> int:
+        """Number of operators made so far."""
+        return int(np.sum(self.windows.offset >= 0))
+
+    def known(self) -> dict[str, Any]:
+        """Return the operators made so far."""
+        return {"offset": self.windows.offset, "pool": self.windows.pool[: self._used]}
+
+    def learn(self, offset: Integers, pool: Singles) -> None:
+        """Take over the operators that `known` returned."""
+        self.windows = Windows(self.windows.first, offset, pool)
+        self._used = pool.size
 
     def add(self, a: int, b: int) -> None:
         """Make the operator of the cells a..b-1."""

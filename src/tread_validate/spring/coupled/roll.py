@@ -20,7 +20,7 @@ from .march import Course, Record, march, pose_at
 from .motion import free_shape, motion
 from .operators import FaceOperators
 from .step import start
-from .store import operators, stiffening
+from .store import ready
 
 Array = NDArray[np.float64]
 
@@ -124,21 +124,21 @@ def roll(
         raise InputError(f"case {case.case_id}: creep ratio", "none yet", "a resolved free-rolling case")
     path = path_of(case)
     shape = free_shape(path, case.block)
-    nu = case.compound.poissons_ratio
     division = settings.body or fitted(case.block, settings.density, settings.layers)
-    body, follow, parts = operators(case.block, shape, division, nu, settings.mesh_correction)
+    face = ready(case.block, shape, division, case.compound.poissons_ratio, settings.mesh_correction)
     series, friction = series or series_of(case), friction or law_of(case)
     time = step_times(path, division.face_size, settings)
-    moves = motion(path, shape, body, follow, case.height, time)
-    stretch = np.zeros(2)
-    if settings.finite_strain:
-        grown = stiffening(case.block, shape, nu)
-        stretch[:] = grown.normal, grown.tangential
+    moves = motion(path, shape, face.body, face.follow, case.height, time)
+    stretch = face.stretch if settings.finite_strain else np.zeros(2)
     solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times, stretch)
     road = RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio))
     grip = Grip(friction.static_coefficient, *friction.kernel_arguments)
-    scene = Scene(parts.nodes, solid, road, grip, Solver(settings.tolerance, settings.most_sweeps))
-    return FacePass(body, time, *run_course(moves, scene, parts))
+    scene = Scene(face.operators.nodes, solid, road, grip, Solver(settings.tolerance, settings.most_sweeps))
+    known = face.operators.count
+    record = run_course(moves, scene, face.operators)
+    if face.operators.count > known:
+        face.remember()
+    return FacePass(face.body, time, *record)
 
 
 def run_course(moves: Course, scene: Scene, parts: FaceOperators) -> Record:

@@ -6,7 +6,9 @@ stiffness to the limit of fine meshes, and the matrix is scaled, symmetrically a
 
 from __future__ import annotations
 
-from functools import lru_cache
+import json
+from dataclasses import astuple, dataclass
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,22 +18,49 @@ from ...units import MM
 from ..stiffness import StiffnessRatios, static_ratios
 from .body import Body, BodySettings, FreeShape, make_body
 from .condense import FaceStiffness, condense
-from .finite_strain import Stiffening, logarithmic_stiffening
-from .operators import FaceOperators
+from .finite_strain import logarithmic_stiffening
+from .kept import Arrays, keep, kept, load
+from .operators import FaceOperators, inverse
 
 Array = NDArray[np.float64]
 
-FINE = BodySettings(face_size=1.25 * MM, layers=8)
-COARSE = BodySettings(face_size=2.5 * MM, layers=4)
+FINE, COARSE = (6.4, 8), (3.2, 4)
+"""Elements per height along and across the block, and layers, of the two meshes that are extrapolated from."""
 ORDER = 1.39
 """Order of convergence of the stiffness in the element size. Corners between a bonded and a free face limit it: meshes
 of 4, 8 and 16 layers give 1.972, 1.891 and 1.860 for a 25 x 20 x 8 mm block with nu = 0.47, that is order 1.39 and a
 limit of 1.841 (theory for a sharp corner of that material: 1.22, which would make the limit 0.2 per cent lower)."""
-STIFFENING = BodySettings(face_size=2.0 * MM, layers=6)
-"""A ratio of two stiffnesses needs no fine mesh: against 1 mm and 8 layers it is off by 1 per cent of itself."""
+STIFFENING = (4.0, 6)
+"""A ratio of two stiffnesses needs no fine mesh: against 8 elements a height it is off by 1 per cent of itself."""
 
 
-@lru_cache(maxsize=12)
+@dataclass(frozen=True)
+class ReadyFace:
+    """A block's face ready for contact.
+
+    Attributes
+    ----------
+    body : Body
+    follow : (3 n, 2 k) array
+        What the unloaded face does with the mount, as in `FaceStiffness`.
+    stretch : (2,) array, 1/m
+        Growth of the stiffness per metre of compression by logarithmic strain: normal, tangential.
+    operators : FaceOperators
+    key : str
+        What the block is kept under.
+    """
+
+    body: Body
+    follow: Array
+    stretch: Array
+    operators: FaceOperators
+    key: str
+
+    def remember(self) -> None:
+        """Keep the window operators made so far for the next process."""
+        keep("windows", self.key, self.operators.known())
+
+
 def condensed(
     block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float, mesh_correction: bool = True
 ) -> tuple[Body, FaceStiffness]:
@@ -50,32 +79,64 @@ def condensed(
 
 
 @lru_cache(maxsize=12)
-def operators(
+def ready(
     block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float, mesh_correction: bool = True
-) -> tuple[Body, Array, FaceOperators]:
-    """Return the block's body, what its unloaded face does with the mount, and its face ready for contact."""
-    body, face = condensed(block, shape, settings, poissons_ratio, mesh_correction)
-    return body, face.follow, FaceOperators(body, face)
+) -> ReadyFace:
+    """Return the block's face ready for contact, from disk where it has been made before."""
+    key = f"{_plan(block)} {shape} {settings} {poissons_ratio!r} {mesh_correction}"
+
+    @cache
+    def solved() -> FaceStiffness:
+        return condensed(block, shape, settings, poissons_ratio, mesh_correction)[1]
+
+    def stiffness() -> Array:
+        return kept("stiffness", key, lambda: {"stiffness": solved().stiffness})["stiffness"]
+
+    def make() -> Arrays:
+        face = solved()
+        grown = logarithmic_stiffening(make_body(block, shape, _part(block, STIFFENING)), poissons_ratio)
+        return {
+            "follow": face.follow,
+            "compliance": inverse(face.stiffness).astype(np.float32),
+            "stretch": np.array([grown.normal, grown.tangential]),
+        }
+
+    arrays = kept("face", key, make)
+    body = make_body(block, shape, settings)
+
+    operators = FaceOperators(body, stiffness, arrays["compliance"])
+    found = load("windows", key)
+    if found is not None:
+        operators.learn(found["offset"], found["pool"])
+    return ReadyFace(body, arrays["follow"], arrays["stretch"], operators, key)
 
 
 @lru_cache(maxsize=32)
 def converged_ratios(block: Block, shape: FreeShape, poissons_ratio: float) -> StiffnessRatios:
     """Return the block's static stiffness ratios, extrapolated from two meshes, one twice as fine (Richardson)."""
-    fine, coarse = (_ratios(block, shape, settings, poissons_ratio) for settings in (FINE, COARSE))
-    return StiffnessRatios(
-        *(
-            getattr(fine, name) + (getattr(fine, name) - getattr(coarse, name)) / (2.0**ORDER - 1.0)
-            for name in ("normal", "normal_sliding", "shear", "rocking")
+
+    def make() -> Arrays:
+        fine, coarse = (
+            np.array(astuple(_ratios(block, shape, _part(block, mesh), poissons_ratio))) for mesh in (FINE, COARSE)
         )
-    )
+        return {"ratios": fine + (fine - coarse) / (2.0**ORDER - 1.0)}
 
-
-@lru_cache(maxsize=32)
-def stiffening(block: Block, shape: FreeShape, poissons_ratio: float) -> Stiffening:
-    """Return the block's stiffening by logarithmic strain."""
-    return logarithmic_stiffening(make_body(block, shape, STIFFENING), poissons_ratio)
+    key = f"{_plan(block)} {shape} {poissons_ratio!r}"
+    return StiffnessRatios(*(float(value) for value in kept("ratios", key, make)["ratios"]))
 
 
 def _ratios(block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float) -> StiffnessRatios:
     body = make_body(block, shape, settings)
     return static_ratios(body, condense(body, poissons_ratio), poissons_ratio, block.height_mm * MM)
+
+
+def _part(block: Block, mesh: tuple[float, int]) -> BodySettings:
+    """Return the division with so many elements per height, at least eight (of FINE) along and across the block."""
+    per_height, layers = mesh
+    least = min(block.length_mm, block.width_mm) * MM
+    return BodySettings(min(block.height_mm * MM / per_height, least / (1.25 * per_height)), layers)
+
+
+def _plan(block: Block) -> str:
+    """Return what of a block decides its shape."""
+    return json.dumps(block.model_dump(mode="json", exclude={"origin", "source"}), sort_keys=True)
