@@ -159,23 +159,21 @@ def test_route_from_clean_sweeps_follows_the_law_within_one_and_two_per_cent(sur
 
 
 def test_true_moduli_lie_in_the_bands_of_noisy_sweeps(surrogate: FractionalZener) -> None:
-    """2 % noise, 20 data sets: the whole curve lies inside a 95 % band in 19 of 20 on average.
+    """2 % noise, 20 data sets of six sweeps: 90 to 98 % of the true curve lies inside the 95 % bands.
 
-    16 or more by chance with probability 0.997; seeds are fixed, so the test does not flicker. No band may be wide
-    enough to be empty talk: half-widths stay below 12 %, six times the noise.
+    Seeds are fixed, so the test does not flicker. No band may be wide enough to be empty talk: half-widths stay below
+    6 %, three times the noise of a point.
     """
-    inside = 0
+    inside = []
     for seed in range(20):
         sweeps = synthetic_sweeps(surrogate, 0.02, seed=seed)
-        route = material_route(sweeps, surrogate.wlf, 22.0, RouteSettings(band=BAND, replicates=200))
+        route = material_route(sweeps, surrogate.wlf, 22.0, RouteSettings(band=BAND, replicates=20))
         assert route.bands is not None
         law = surrogate_modulus(surrogate, route.bands.angular_frequency)
-        whole = True
         for band, true in ((route.bands.storage_modulus, law.real), (route.bands.loss_modulus, law.imag)):
-            whole &= bool(np.all((band.lower <= true) & (true <= band.upper)))
-            assert np.max((band.upper - band.lower) / (2 * band.centre)) < 0.12
-        inside += whole
-    assert inside >= 16
+            inside.append(np.mean((band.lower <= true) & (true <= band.upper)))
+            assert np.max((band.upper - band.lower) / (2 * band.centre)) < 0.06
+    assert 0.90 <= np.mean(inside) <= 0.98
 
 
 def test_wlf_constants_are_recovered_from_overlap(surrogate: FractionalZener) -> None:
@@ -197,7 +195,8 @@ def test_bad_points_are_set_aside_and_do_not_move_the_series(surrogate: Fraction
     settings_ = RouteSettings(band=BAND, replicates=0)
     clean = material_route(synthetic_sweeps(surrogate, 0.002), surrogate.wlf, 22.0, settings_)
     bad = material_route(synthetic_sweeps(surrogate, 0.002, outliers=4), surrogate.wlf, 22.0, settings_)
-    assert 4 <= bad.outliers <= clean.outliers + 6
+    assert clean.outliers == 0
+    assert 4 <= bad.outliers <= 6
     w = np.geomspace(*BAND, 100)
     for name in ("storage_modulus", "loss_modulus"):
         ratio = getattr(bad.fit.series, name)(w) / getattr(clean.fit.series, name)(w)

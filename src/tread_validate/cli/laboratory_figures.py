@@ -39,18 +39,18 @@ def material(route: MaterialRoute, figure: Figure, mark: str = "") -> None:
     raw, shifted, residual, spectrum = axes.ravel()
     for k, sweep in enumerate(route.sweeps):
         color = COLOURS[k % len(COLOURS)]
-        hertz = sweep.raw.angular_frequency / (2 * np.pi)
-        raw.plot(hertz, sweep.raw.storage_modulus / MPA, "o", ms=3, color=color)
-        raw.plot(hertz, sweep.raw.loss_modulus / MPA, "s", ms=3, mfc="none", color=color)
-        raw.plot(hertz, sweep.storage_modulus / MPA, "-", color=color, lw=1, label=f"{sweep.raw.temperature:.1f} °C")
-        raw.plot(hertz, sweep.loss_modulus / MPA, "--", color=color, lw=1)
+        hertz = sweep.angular_frequency / (2 * np.pi)
+        raw.plot(hertz, sweep.storage_modulus / MPA, "o", ms=3, color=color)
+        raw.plot(hertz, sweep.loss_modulus / MPA, "s", ms=3, mfc="none", color=color)
+        raw.plot(hertz, route.curve(k)[0] / MPA, "-", color=color, lw=1, label=f"{sweep.temperature:.1f} °C")
+        raw.plot(hertz, route.curve(k)[1] / MPA, "--", color=color, lw=1)
     raw.set(xscale="log", yscale="log", xlabel="frequency, Hz", ylabel="modulus, MPa")
-    raw.set_title("Sweeps: E′ (filled), E″ (open), smoothed", loc="left")
+    raw.set_title("Sweeps: E′ (filled), E″ (open), the curve behind", loc="left")
     raw.legend(ncols=2, fontsize=6.5)
     m, series = route.master, route.fit.series
     w = np.geomspace(m.angular_frequency[0], m.angular_frequency[-1], 200)
-    good = ~m.outlier
-    for values, marker, name in ((m.raw_storage_modulus, "o", "E′"), (m.raw_loss_modulus, "s", "E″")):
+    good = ~route.outlier
+    for values, marker, name in ((m.storage_modulus, "o", "E′"), (m.loss_modulus, "s", "E″")):
         shifted.plot(m.angular_frequency[good], values[good] / MPA, marker, ms=2.5, color=GREY, mfc="none")
         shifted.plot(m.angular_frequency[~good], values[~good] / MPA, "x", ms=4, color=VERMILION)
         curve = series.storage_modulus(w) if name == "E′" else series.loss_modulus(w)

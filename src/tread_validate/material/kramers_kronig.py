@@ -10,12 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
+
+from .collocation import Collocation
+from .rich import FEW, REFINEMENTS, closer, rich_times, scatter
+from .sign_control import non_negative
 
 Array = NDArray[np.float64]
 
-TERMS_PER_DECADE = 4
-MARGIN = 30.0  # relaxation times reach this factor beyond both ends of the data
+RIDGE = 1e-3
 LARGEST_MISMATCH = 0.05
 DISPERSION_RANGE = (0.9, 1.1)
 
@@ -29,40 +31,56 @@ class KramersKronig:
     predicted_storage_modulus : (m,) array, Pa
         From the loss modulus, with the constant that fits best.
     mismatch : float
-        Root mean square of predicted over measured E', less 1.
+        Root mean square of predicted over measured E', less 1; the noise between neighbouring points taken off.
+    noise : float
+        Relative standard deviation of E' between neighbouring points.
     dispersion_ratio : float
         Measured rise of E' over the rise that E'' implies; 1 for a linear causal material.
     """
 
     predicted_storage_modulus: Array
     mismatch: float
+    noise: float
     dispersion_ratio: float
 
     @property
     def consistent(self) -> bool:
-        """Mismatch at most 5 % and dispersion ratio within 0.9..1.1."""
+        """Mismatch at most 5 % and twice the noise, dispersion ratio within 0.9..1.1."""
         low, high = DISPERSION_RANGE
-        return self.mismatch <= LARGEST_MISMATCH and low <= self.dispersion_ratio <= high
+        return self.mismatch <= LARGEST_MISMATCH + 2.0 * self.noise and low <= self.dispersion_ratio <= high
 
 
 def kramers_kronig(angular_frequency: Array, storage_modulus: Array, loss_modulus: Array) -> KramersKronig:
     """Predict E' from E'' (Pa) at w in rad/s, all (m,), and compare.
 
     What lies outside the measured band reaches into it: terms at times up to 30-fold beyond both ends stand for it,
-    with a weak preference for few.
+    with a weak preference for few. Points of any width in decades are taken as they were measured.
     """
     w = np.asarray(angular_frequency, dtype=np.float64)
-    low, high = 1.0 / (w.max() * MARGIN), MARGIN / w.min()
-    times = np.geomspace(low, high, max(round(TERMS_PER_DECADE * np.log10(high / low)), 4))
+    order = np.argsort(w, kind="stable")
+    times = rich_times(w)
+    spectrum = _spectrum(w, loss_modulus, times, order)
+    for _ in range(REFINEMENTS):
+        if int(np.sum(spectrum > 0)) * FEW > times.size:
+            break
+        times = closer(times, spectrum > 0)
+        spectrum = _spectrum(w, loss_modulus, times, order)
     x = w[:, None] * times
-    loss_rows = x / (1.0 + x * x) / loss_modulus[:, None]
-    # E' is used only for its two free numbers, after the loss modulus has fixed the spectrum
-    ridge = 1e-3 * np.eye(times.size) / float(np.max(loss_modulus))
-    spectrum, _ = nnls(np.vstack([loss_rows, ridge]), np.concatenate([np.ones(w.size), np.zeros(times.size)]))
     rise = (x * x / (1.0 + x * x)) @ spectrum
     constant = float(np.sum((storage_modulus - rise) / storage_modulus**2) / np.sum(1.0 / storage_modulus**2))
     predicted = constant + rise
     rows = np.column_stack([np.ones(w.size), rise]) / storage_modulus[:, None]
     ratio = float(np.linalg.lstsq(rows, np.ones(w.size), rcond=None)[0][1])
-    mismatch = float(np.sqrt(np.mean((predicted / storage_modulus - 1.0) ** 2)))
-    return KramersKronig(predicted, mismatch, ratio)
+    away = predicted / storage_modulus - 1.0
+    noise = scatter(w, away, 2.0).noise
+    mismatch = float(np.sqrt(max(float(np.mean(away**2)) - noise**2, 0.0)))
+    return KramersKronig(predicted, mismatch, noise, ratio)
+
+
+def _spectrum(w: Array, loss: Array, times: Array, order: NDArray[np.intp]) -> Array:
+    """Return the moduli >= 0 of `times` that give the loss modulus."""
+    x = w[:, None] * times
+    here = np.interp(-np.log(times), np.log(w[order]), loss[order])  # what each term would lose at its own frequency
+    ridge = np.diag(RIDGE / here)
+    matrix = np.vstack([x / (1.0 + x * x) / loss[:, None], ridge])
+    return non_negative(Collocation(matrix, np.concatenate([np.ones(w.size), np.zeros(times.size)])))

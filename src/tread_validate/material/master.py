@@ -12,7 +12,6 @@ from scipy.optimize import least_squares
 
 from ..errors import InputError
 from ..study import Wlf
-from .smoothing import Smoothed, robust_smooth
 from .sweeps import Sweep
 from .wlf import referred_to, relative_shift
 
@@ -21,42 +20,8 @@ VerticalShift = Literal["none", "fitted"]
 
 KNOTS_PER_DECADE = 1.0
 RIDGE = 1e-3
-
-
-@dataclass(frozen=True)
-class SmoothedSweep:
-    """A sweep with its smoothed moduli (log-log), (n,) each."""
-
-    raw: Sweep
-    storage: Smoothed
-    loss: Smoothed
-
-    @property
-    def storage_modulus(self) -> Array:
-        """Smoothed E', Pa."""
-        return np.exp(self.storage.values)
-
-    @property
-    def loss_modulus(self) -> Array:
-        """Smoothed E'', Pa."""
-        return np.exp(self.loss.values)
-
-    @property
-    def outliers(self) -> NDArray[np.bool_]:
-        """Points set aside in E' or E''."""
-        return np.asarray(self.storage.outliers | self.loss.outliers, dtype=np.bool_)
-
-
-def smooth_sweeps(sweeps: tuple[Sweep, ...]) -> tuple[SmoothedSweep, ...]:
-    """Smooth the logarithms of E' and E'' of each sweep over the logarithm of frequency."""
-    return tuple(
-        SmoothedSweep(
-            sweep,
-            robust_smooth(np.log(sweep.angular_frequency), np.log(sweep.storage_modulus)),
-            robust_smooth(np.log(sweep.angular_frequency), np.log(sweep.loss_modulus)),
-        )
-        for sweep in sweeps
-    )
+ROUNDS = 3  # of weights that set outliers aside
+LEAST_SCALE = 5e-4  # in ln E: what no instrument resolves is not an outlier
 
 
 @dataclass(frozen=True)
@@ -68,12 +33,11 @@ class MasterCurve:
     angular_frequency : (m,) array, rad/s
         w a_T at the reference temperature.
     storage_modulus, loss_modulus : (m,) arrays, Pa
-        Smoothed, times the vertical shift.
-    raw_storage_modulus, raw_loss_modulus : (m,) arrays, Pa
-        As measured, shifted in the same way.
+        As measured, times the vertical shift.
     sweep : (m,) array of int
         Number of the sweep each point is from.
-    outlier : (m,) bool array
+    line : (m,) array of int
+        Line of the source file.
     reference_temperature : float, degC
     temperatures, shift_factors, vertical_factors : (k,) arrays
         Of each sweep: degC, a_T relative to the reference temperature, factor on the moduli.
@@ -82,25 +46,28 @@ class MasterCurve:
     angular_frequency: Array
     storage_modulus: Array
     loss_modulus: Array
-    raw_storage_modulus: Array
-    raw_loss_modulus: Array
     sweep: NDArray[np.int64]
-    outlier: NDArray[np.bool_]
+    line: NDArray[np.int64]
     reference_temperature: float
     temperatures: Array
     shift_factors: Array
     vertical_factors: Array
 
+    @property
+    def moduli(self) -> tuple[Array, Array]:
+        """E' and E'' in Pa, (m,) each."""
+        return self.storage_modulus, self.loss_modulus
+
 
 def shift(
-    sweeps: tuple[SmoothedSweep, ...], wlf: Wlf, reference_temperature: float, vertical: Array | None = None
+    sweeps: tuple[Sweep, ...], wlf: Wlf, reference_temperature: float, vertical: Array | None = None
 ) -> MasterCurve:
     """Return the master curve at `reference_temperature` in degC; `vertical` multiplies the moduli of each sweep."""
-    temperatures = np.array([sweep.raw.temperature for sweep in sweeps])
+    temperatures = np.array([sweep.temperature for sweep in sweeps])
     factors = relative_shift(temperatures, reference_temperature, wlf)
     heights = np.ones(len(sweeps)) if vertical is None else vertical
-    w = np.concatenate([s.raw.angular_frequency * a for s, a in zip(sweeps, factors, strict=True)])
-    number = np.concatenate([np.full(s.raw.line.size, k) for k, s in enumerate(sweeps)])
+    w = np.concatenate([s.angular_frequency * a for s, a in zip(sweeps, factors, strict=True)])
+    number = np.concatenate([np.full(s.line.size, k) for k, s in enumerate(sweeps)])
     order = np.argsort(w, kind="stable")
 
     def gather(parts: list[Array]) -> Array:
@@ -110,10 +77,8 @@ def shift(
         angular_frequency=w[order],
         storage_modulus=gather([s.storage_modulus for s in sweeps]),
         loss_modulus=gather([s.loss_modulus for s in sweeps]),
-        raw_storage_modulus=gather([s.raw.storage_modulus for s in sweeps]),
-        raw_loss_modulus=gather([s.raw.loss_modulus for s in sweeps]),
         sweep=number[order].astype(np.int64),
-        outlier=np.concatenate([s.outliers for s in sweeps])[order],
+        line=np.concatenate([s.line for s in sweeps])[order],
         reference_temperature=reference_temperature,
         temperatures=temperatures,
         shift_factors=factors,
@@ -148,7 +113,7 @@ class WlfFit:
 
 
 def fit_wlf(
-    sweeps: tuple[SmoothedSweep, ...], start: Wlf, reference_temperature: float, vertical: VerticalShift = "none"
+    sweeps: tuple[Sweep, ...], start: Wlf, reference_temperature: float, vertical: VerticalShift = "none"
 ) -> WlfFit:
     """Fit C1 and C2 referred to `reference_temperature` (degC), and a vertical factor per sweep if asked.
 
@@ -156,7 +121,7 @@ def fit_wlf(
     minimise the robustly weighted squares about it. The spline and the vertical factors are linear and eliminated at
     each step. Raises `InputError` for fewer than three temperatures.
     """
-    temperatures = np.array([sweep.raw.temperature for sweep in sweeps])
+    temperatures = np.array([sweep.temperature for sweep in sweeps])
     if np.unique(np.round(temperatures)).size < 3:
         raise InputError("WLF fit", f"{np.unique(np.round(temperatures)).size} temperature(s)", "at least 3")
     pieces = _Overlap(sweeps, reference_temperature, vertical)
@@ -170,8 +135,11 @@ def fit_wlf(
         return pieces.residual(*wlf_of(q))[0]
 
     begin = np.array([c1, np.log(max(c2 - max(lowest, 0.0), 1.0))])
-    found = least_squares(residual, begin, x_scale=[1.0, 0.1], xtol=1e-10, ftol=1e-10)
-    c1, c2 = wlf_of(found.x)
+    for _ in range(ROUNDS):
+        found = least_squares(residual, begin, x_scale=[1.0, 0.1], xtol=1e-10, ftol=1e-10)
+        begin = found.x
+        c1, c2 = wlf_of(found.x)
+        pieces.reweigh(c1, c2)
     final, heights, parameters = pieces.residual(c1, c2)
     steps = [(1e-4, 0.0), (0.0, 1e-3)]
     jacobian = np.column_stack(
@@ -189,22 +157,28 @@ def fit_wlf(
 class _Overlap:
     """How far the shifted sweeps are from one smooth curve."""
 
-    def __init__(self, sweeps: tuple[SmoothedSweep, ...], reference: float, vertical: VerticalShift) -> None:
-        self.above = np.concatenate([np.full(s.raw.line.size, s.raw.temperature - reference) for s in sweeps])
-        self.log_w = np.concatenate([np.log10(s.raw.angular_frequency) for s in sweeps])
-        self.number = np.concatenate([np.full(s.raw.line.size, k) for k, s in enumerate(sweeps)])
+    def __init__(self, sweeps: tuple[Sweep, ...], reference: float, vertical: VerticalShift) -> None:
+        self.above = np.concatenate([np.full(s.line.size, s.temperature - reference) for s in sweeps])
+        self.log_w = np.concatenate([np.log10(s.angular_frequency) for s in sweeps])
+        self.number = np.concatenate([np.full(s.line.size, k) for k, s in enumerate(sweeps)])
         self.log_moduli = [
-            np.concatenate([np.log(s.raw.storage_modulus) for s in sweeps]),
-            np.concatenate([np.log(s.raw.loss_modulus) for s in sweeps]),
+            np.concatenate([np.log(s.storage_modulus) for s in sweeps]),
+            np.concatenate([np.log(s.loss_modulus) for s in sweeps]),
         ]
-        self.weights = [
-            np.sqrt(np.concatenate([s.storage.weights for s in sweeps])),
-            np.sqrt(np.concatenate([s.loss.weights for s in sweeps])),
-        ]
+        self.weights = [np.ones(self.log_w.size), np.ones(self.log_w.size)]
+        self.unweighted = np.zeros(2 * self.log_w.size)
         self.count = len(sweeps)
         self.vertical = vertical
         self.intervals = 0  # set by the first constants tried, so that the problem stays smooth in them
-        self.anchor = int(np.argmin([abs(s.raw.temperature - reference) for s in sweeps]))
+        self.anchor = int(np.argmin([abs(s.temperature - reference) for s in sweeps]))
+
+    def reweigh(self, c1: float, c2: float) -> None:
+        """Give each point its bisquare weight at six median distances from the curve under these constants."""
+        self.residual(c1, c2)
+        away = np.abs(self.unweighted).reshape(2, -1)
+        for k, one in enumerate(away):
+            scale = 6.0 * max(float(np.median(one)), LEAST_SCALE)
+            self.weights[k] = np.clip(1.0 - (one / scale) ** 2, 0.0, None)
 
     def residual(self, c1: float, c2: float) -> tuple[Array, Array, int]:
         """Return weighted residuals of both moduli, the vertical factors, and how many linear parameters there are."""
@@ -219,8 +193,9 @@ class _Overlap:
                 matrix = np.vstack([basis * weight[:, None], bend])
                 right = np.concatenate([y * weight, np.zeros(bend.shape[0])])
                 c = np.linalg.lstsq(matrix, right, rcond=None)[0]
-                parts.append((y - basis @ c) * weight)
-            return np.concatenate(parts), np.ones(self.count), 2 * basis.shape[1]
+                parts.append(y - basis @ c)
+            self.unweighted = np.concatenate(parts)
+            return self.unweighted * np.concatenate(self.weights), np.ones(self.count), 2 * basis.shape[1]
         # log b of each sweep but the one nearest to the reference, common to both moduli
         moved = np.delete(np.equal.outer(self.number, np.arange(self.count)).astype(float), self.anchor, axis=1)
         k = basis.shape[1]
@@ -232,7 +207,8 @@ class _Overlap:
         matrix = np.vstack([both * weight[:, None], bends])
         c = np.linalg.lstsq(matrix, np.concatenate([y * weight, np.zeros(bends.shape[0])]), rcond=None)[0]
         heights = np.insert(np.exp(c[2 * k :]), self.anchor, 1.0)
-        return (y - both @ c) * weight, heights, both.shape[1]
+        self.unweighted = y - both @ c
+        return self.unweighted * weight, heights, both.shape[1]
 
 
 def _spline_basis(x: Array, intervals: int) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..study import Wlf
-from .bootstrap import Bands, bootstrap
+from .bands import Bands, bands, grid
 from .collocation import relaxation_times
+from .describe import describe, scatters
 from .fit import PronyFit, fit_prony
 from .kramers_kronig import KramersKronig, kramers_kronig
-from .master import MasterCurve, SmoothedSweep, VerticalShift, WlfFit, fit_wlf, shift, smooth_sweeps
+from .master import MasterCurve, VerticalShift, WlfFit, fit_wlf, shift
 from .reduce import prune, refine_times
+from .rich import RichCurve, Scatter, rich_curve
 from .sweeps import Sweep, check_above_pole, read_sweeps
 
 Array = NDArray[np.float64]
@@ -64,18 +66,23 @@ class RouteSettings:
 
 @dataclass(frozen=True)
 class MaterialRoute:
-    """Raw sweeps, what was made of them at each stage, and how good it is.
+    """Sweeps, what was made of them at each stage, and how good it is. Every error is against the data as measured.
 
     Attributes
     ----------
     source : str
-    sweeps : tuple of SmoothedSweep
-        Raw and smoothed moduli, outliers marked.
+    sweeps : tuple of Sweep
     wlf : Wlf
         Constants used.
     wlf_fit : WlfFit or None
     master : MasterCurve
     band : (float, float), rad/s
+    rich : RichCurve
+        The curve that outliers and scatter are measured from.
+    outlier : (m,) bool array
+        Points of the master curve that were set aside.
+    scatters : (Scatter, Scatter)
+        Of E' and E''.
     fit : PronyFit
         Series and relative residuals in the band.
     consistency : KramersKronig
@@ -84,19 +91,32 @@ class MaterialRoute:
 
     source: str
     settings: RouteSettings
-    sweeps: tuple[SmoothedSweep, ...]
+    sweeps: tuple[Sweep, ...]
     wlf: Wlf
     wlf_fit: WlfFit | None
     master: MasterCurve
     band: tuple[float, float]
+    rich: RichCurve
+    outlier: NDArray[np.bool_]
+    scatters: tuple[Scatter, Scatter]
     fit: PronyFit
     consistency: KramersKronig
     bands: Bands | None
 
     @property
     def outliers(self) -> int:
-        """Number of points set aside by the smoothing."""
-        return int(self.master.outlier.sum())
+        """Number of points set aside."""
+        return int(self.outlier.sum())
+
+    def curve(self, number: int) -> tuple[Array, Array]:
+        """Return E' and E'' in Pa of the rich curve at the points of one sweep, (n,) each."""
+        sweep, height = self.sweeps[number], float(self.master.vertical_factors[number])
+        found = self.rich.moduli(sweep.angular_frequency * float(self.master.shift_factors[number])) / height
+        return found[0], found[1]
+
+    def set_aside(self, number: int) -> NDArray[np.bool_]:
+        """Return which points of one sweep are outliers, (n,)."""
+        return np.isin(self.sweeps[number].line, self.master.line[self.outlier & (self.master.sweep == number)])
 
     def quality(self) -> dict[str, float | int | str | bool]:
         """Return the figures that tell how good the series is, by name with unit."""
@@ -122,11 +142,16 @@ class MaterialRoute:
             c1, c2 = self.wlf_fit.deviations
             rows["wlf_c1_deviation"], rows["wlf_c2_deviation_K"] = round(c1, 4), round(c2, 3)
             rows["overlap_misfit_percent"] = round(100 * self.wlf_fit.misfit, 3)
+        for name, one in zip(("storage", "loss"), self.scatters, strict=True):
+            rows[f"{name}_noise_percent"] = round(100 * one.noise, 3)
+            rows[f"{name}_misfit_percent"] = round(100 * one.misfit, 3)
         if self.bands is not None:
             b = self.bands
-            for name, band in (("storage", b.storage_modulus), ("loss", b.loss_modulus)):
+            for k, (name, band) in enumerate((("storage", b.storage_modulus), ("loss", b.loss_modulus))):
                 half = 0.5 * np.max((band.upper - band.lower) / band.centre)
                 rows[f"{name}_band_95_percent"] = round(100 * float(half), 3)
+                rows[f"{name}_points_in_their_band_percent"] = round(100 * b.points_inside[k], 1)
+                rows[f"{name}_fit_in_the_band_percent"] = round(100 * b.fit_inside[k], 1)
         return rows
 
 
@@ -137,34 +162,39 @@ def material_route(
     settings: RouteSettings | None = None,
     source: str = "sweeps",
 ) -> MaterialRoute:
-    """Smooth, shift, fit and judge; `reference_temperature` in degC.
+    """Shift, set outliers aside, fit and judge; `reference_temperature` in degC.
 
     Raises `InputError` for a sweep at or below the WLF pole, a band outside the data, or too few points for the terms.
     """
     chosen = settings or RouteSettings()
     check_above_pole(sweeps, wlf, source)
-    smoothed = smooth_sweeps(sweeps)
-    wlf_fit = fit_wlf(smoothed, wlf, reference_temperature, chosen.vertical) if chosen.fit_wlf else None
+    wlf_fit = fit_wlf(sweeps, wlf, reference_temperature, chosen.vertical) if chosen.fit_wlf else None
     used = wlf if wlf_fit is None else wlf_fit.wlf
     vertical = None if wlf_fit is None else wlf_fit.vertical_factors
-    master = shift(smoothed, used, reference_temperature, vertical)
+    master = shift(sweeps, used, reference_temperature, vertical)
     band = _band(master, chosen, source)
     inside = (master.angular_frequency >= band[0] * (1 - 1e-9)) & (master.angular_frequency <= band[1] * (1 + 1e-9))
-    w = master.angular_frequency[inside]
-    storage, loss = master.storage_modulus[inside], master.loss_modulus[inside]
-    if 2 * w.size < chosen.terms + 1:
-        found = f"{w.size} points between {band[0]:.4g} and {band[1]:.4g} rad/s"
+    if 2 * int(inside.sum()) < chosen.terms + 1:
+        found = f"{int(inside.sum())} points between {band[0]:.4g} and {band[1]:.4g} rad/s"
         raise InputError(source, found, f"at least {(chosen.terms + 2) // 2} for {chosen.terms} terms")
+    rich, outlier = describe(master)
+    kept = inside & ~outlier
+    both = scatters(master, rich, outlier, kept)
+    w, storage, loss = (values[kept] for values in (master.angular_frequency, *master.moduli))
     fit = _fit(w, storage, loss, band, reference_temperature, chosen)
-    if chosen.largest_error is not None:
-        fit = prune(fit, chosen.largest_error, chosen.loss_weight)
-    bands = None
+    raw = master.angular_frequency[inside], master.storage_modulus[inside], master.loss_modulus[inside]
+    found_bands = None
     if chosen.replicates:
-        bands = bootstrap(
-            smoothed, master, fit, band, used, wlf_fit, chosen.loss_weight, chosen.replicates, seed=chosen.seed
+        shifted = None if wlf_fit is None else _shift_deviation(sweeps, wlf_fit, master, ~outlier, fit)
+        behind = replace(rich, leverage=rich.leverage[:, kept[~outlier]])
+        everywhere = master.angular_frequency[~outlier]
+        found_bands = bands(
+            fit, raw, everywhere, behind, both, shifted, chosen.loss_weight, chosen.replicates, chosen.seed
         )
     consistency = kramers_kronig(w, storage, loss)
-    return MaterialRoute(source, chosen, smoothed, used, wlf_fit, master, band, fit, consistency, bands)
+    return MaterialRoute(
+        source, chosen, sweeps, used, wlf_fit, master, band, rich, outlier, both, fit, consistency, found_bands
+    )
 
 
 def read_route(
@@ -200,5 +230,33 @@ def _fit(
     fit = fit_prony(w, storage, loss, times, temperature, settings.loss_weight)
     sparse = settings.terms < ENOUGH_PER_DECADE * np.log10(band[1] / band[0])
     if settings.times == "refined" or (settings.times == "auto" and sparse):
-        return refine_times(fit, settings.loss_weight)
+        fit = refine_times(fit, settings.loss_weight)
+    if settings.largest_error is not None:
+        fit = prune(fit, settings.largest_error, settings.loss_weight)
+    if fit.method == "non_negative":  # searched for in floating point: once more, to the minimum on every machine
+        fit = fit_prony(w, storage, loss, fit.series.relaxation_times, temperature, settings.loss_weight)
     return fit
+
+
+def _shift_deviation(
+    sweeps: tuple[Sweep, ...], wlf_fit: WlfFit, master: MasterCurve, kept: NDArray[np.bool_], fit: PronyFit
+) -> Array:
+    """Return relative standard deviations of E' and E'' on the bands' frequencies that fitted constants bring."""
+    sizes, directions = np.linalg.eigh(wlf_fit.covariance)
+    wanted = grid(fit.angular_frequency)
+    total = np.zeros((2, wanted.size))
+    lowest = max(master.reference_temperature - float(master.temperatures.min()), 0.0)
+    place = np.array([wlf_fit.wlf.c1, wlf_fit.wlf.c2_K])
+    for size, direction in zip(sizes, directions.T, strict=True):
+        curves = []
+        for sign in (-1.0, 1.0):
+            c1, c2 = place + sign * np.sqrt(max(float(size), 0.0)) * direction
+            moved = Wlf(
+                c1=max(c1, 1e-3), c2_K=max(c2, lowest + 1.0), reference_temperature_degC=master.reference_temperature
+            )
+            other = shift(sweeps, moved, master.reference_temperature, wlf_fit.vertical_factors)
+            same = np.isin(other.line * len(sweeps) + other.sweep, (master.line * len(sweeps) + master.sweep)[kept])
+            w, *moduli = (values[same] for values in (other.angular_frequency, *other.moduli))
+            curves.append(rich_curve(w, *moduli).moduli(wanted))
+        total += (0.5 * np.log(curves[1] / curves[0])) ** 2
+    return np.sqrt(total)

@@ -14,6 +14,7 @@ from .collocation import Collocation
 Array = NDArray[np.float64]
 
 MOST_ITERATIONS = 3000
+TALL = 3  # rows a column from which a system is first reduced to a square one
 ZERO = 1e-9  # of the largest scaled coefficient
 
 
@@ -72,5 +73,9 @@ def sign_control(system: Collocation, high_modulus: float, low_modulus: float) -
 def non_negative(system: Collocation) -> Array:
     """Return the coefficients [E_inf, E_1 .. E_n] >= 0 in Pa by the active-set method of Lawson and Hanson."""
     scale = 1.0 / np.linalg.norm(system.matrix, axis=0)
-    solution, _ = nnls(system.matrix * scale, system.target, maxiter=50 * system.matrix.shape[1])
+    matrix, target = system.matrix * scale, system.target
+    if matrix.shape[0] > TALL * matrix.shape[1]:
+        turned, matrix = np.linalg.qr(matrix)
+        target = turned.T @ target
+    solution, _ = nnls(matrix, target, maxiter=50 * matrix.shape[1])
     return np.asarray(solution * scale, dtype=np.float64)

@@ -30,13 +30,13 @@ def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple
             curve = route.master
             axes.plot(
                 curve.angular_frequency,
-                curve.raw_storage_modulus / MPA,
+                curve.storage_modulus / MPA,
                 "o",
                 ms=2,
                 color="#9aa3ab",
                 label="data, shifted",
             )
-            axes.plot(curve.angular_frequency, curve.raw_loss_modulus / MPA, "o", ms=2, color="#9aa3ab")
+            axes.plot(curve.angular_frequency, curve.loss_modulus / MPA, "o", ms=2, color="#9aa3ab")
         if isinstance(compound, FractionalZener):
             data = np.geomspace(low, high, 29)
             modulus = surrogate_modulus(compound, data)

@@ -20,21 +20,23 @@ RAMP = colormaps["cividis"]  # for temperatures: even in lightness, told apart b
 
 
 def sweeps(folder: Path, name: str, route: MaterialRoute, marks: tuple[Mark, ...]) -> Drawn:
-    """Draw the storage moduli as measured and as smoothed, one colour a temperature."""
+    """Draw the storage moduli as measured, with the curve behind them, one colour a temperature."""
 
     def paint(axes: Axes) -> None:
         last = max(len(route.sweeps) - 1, 1)
         for index, sweep in enumerate(route.sweeps):
             color = RAMP(0.9 * index / last)
-            w, modulus = sweep.raw.angular_frequency, sweep.raw.storage_modulus / MPA
+            w, modulus = sweep.angular_frequency, sweep.storage_modulus / MPA
             axes.plot(w, modulus, "o", ms=2.5, color=color, mfc="none")
-            axes.plot(w, sweep.storage_modulus / MPA, color=color, lw=1.0, label=f"{sweep.raw.temperature:.3g} °C")
-            aside = sweep.outliers
+            axes.plot(w, route.curve(index)[0] / MPA, color=color, lw=1.0, label=f"{sweep.temperature:.3g} °C")
+            aside = route.set_aside(index)
             axes.plot(w[aside], modulus[aside], "x", ms=5, color=VERMILION)
         axes.set(xscale="log", yscale="log", xlabel="angular frequency, rad/s", ylabel="storage modulus, MPa")
         axes.legend(ncols=2)
 
-    caption = "Points: as measured; lines: smoothed; crosses: points set aside as outliers in E′ or E″."
+    caption = (
+        "Points: as measured; lines: the series behind all sweeps; crosses: points set aside as outliers in E′ or E″."
+    )
     return draw(folder, f"route-{name}-sweeps", f"Isothermal sweeps, compound {name}", caption, paint, marks)
 
 
@@ -45,9 +47,9 @@ def master(folder: Path, name: str, route: MaterialRoute, marks: tuple[Mark, ...
 
     def paint(axes: Axes) -> None:
         axes.plot(
-            curve.angular_frequency, curve.raw_storage_modulus / MPA, "o", ms=2, color="#9aa3ab", label="data, shifted"
+            curve.angular_frequency, curve.storage_modulus / MPA, "o", ms=2, color="#9aa3ab", label="data, shifted"
         )
-        axes.plot(curve.angular_frequency, curve.raw_loss_modulus / MPA, "o", ms=2, color="#9aa3ab")
+        axes.plot(curve.angular_frequency, curve.loss_modulus / MPA, "o", ms=2, color="#9aa3ab")
         axes.plot(w, series.storage_modulus(w) / MPA, color=BLUE, label="E′, Prony series")
         axes.plot(w, series.loss_modulus(w) / MPA, "--", color=VERMILION, label="E″, Prony series")
         axes.axvspan(*route.band, color="#eef1f4", zorder=0)

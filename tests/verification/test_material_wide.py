@@ -1,0 +1,103 @@
+"""Master curves of 4 to 30 decades: bands that hold what they promise, no false outliers, causality recognised."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tread_validate.errors import InputError
+from tread_validate.material import MaterialRoute, RouteSettings, fractional_zener, material_route
+from tread_validate.material.kramers_kronig import kramers_kronig
+from tread_validate.material.rich import rich_curve, scatter
+from tread_validate.material.sweeps import Sweep
+from tread_validate.study import Wlf
+
+DECADES = (4, 7, 13, 20, 30)
+PER_DECADE = 7
+
+
+def law(kind: str, w: np.ndarray) -> np.ndarray:
+    """Return E* of a Zener solid, a fractional one, or a Havriliak-Negami one: 1 MPa to 1 GPa about 1 rad/s, in Pa."""
+    if kind == "zener":
+        return fractional_zener(w, 1e6, 1e9, 1.0, 1.0)
+    if kind == "fractional":
+        return fractional_zener(w, 1e6, 1e9, 1.0, 0.4)
+    return 1e9 - 0.999e9 / (1.0 + (1j * w) ** 0.7) ** 0.5
+
+
+def measured(kind: str, decades: float, noise: float, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    random = np.random.default_rng(seed)
+    w = np.logspace(-decades / 2, decades / 2, round(PER_DECADE * decades))
+    modulus = law(kind, w)
+    parts = [part * np.exp(noise * random.standard_normal(w.size)) for part in (modulus.real, modulus.imag)]
+    return w, parts[0], parts[1]
+
+
+def route_of(kind: str, decades: float, noise: float, seed: int, replicates: int = 2) -> MaterialRoute:
+    w, storage, loss = measured(kind, decades, noise, seed)
+    sweep = Sweep(22.0, w, storage, loss, np.arange(w.size, dtype=np.int64) + 2)
+    return material_route((sweep,), Wlf(), 22.0, RouteSettings(replicates=replicates))
+
+
+@pytest.mark.parametrize("noise", [0.01, 0.05])
+def test_bands_hold_the_true_curve_and_the_points_at_every_width(noise: float) -> None:
+    """95 % bands over 51 sets: true moduli and raw points are inside in 90 to 98 %."""
+    true, points = [], []
+    for kind in ("zener", "fractional", "havriliak_negami"):
+        for decades in DECADES:
+            for seed in range(5 if decades < 20 else 1):
+                bands = route_of(kind, decades, noise, seed).bands
+                assert bands is not None
+                modulus = law(kind, bands.angular_frequency)
+                for band, part in ((bands.storage_modulus, modulus.real), (bands.loss_modulus, modulus.imag)):
+                    true.append(np.mean((band.lower <= part) & (part <= band.upper)))
+                points += list(bands.points_inside)
+    assert 0.90 <= np.mean(true) <= 0.98
+    assert 0.90 <= np.mean(points) <= 0.98
+
+
+@pytest.mark.parametrize("kind", ["zener", "fractional", "havriliak_negami"])
+def test_exact_curves_have_no_outliers_and_are_consistent_at_every_width(kind: str) -> None:
+    """Without noise nothing stands off and E'' implies E' to 0.1 % of it, from 4 to 30 decades."""
+    for decades in DECADES:
+        route = route_of(kind, decades, 0.0, 0, replicates=0)
+        assert route.outliers == 0
+        assert route.consistency.consistent
+        assert route.consistency.mismatch < 1e-3
+
+
+@pytest.mark.parametrize("decades", DECADES)
+def test_loss_modulus_of_another_scale_is_inconsistent_at_every_width(decades: int) -> None:
+    """E'' 1.3 times too large implies a rise of E' 1.3 times too large; noise of 2 % does not hide it."""
+    w, storage, loss = measured("fractional", decades, 0.02, 3)
+    assert kramers_kronig(w, storage, loss).consistent
+    assert not kramers_kronig(w, storage, 1.3 * loss).consistent
+
+
+def test_single_bad_points_are_found_at_every_width() -> None:
+    """Three points 20 % off in 1 % noise are outliers, and next to nothing else is."""
+    for decades in DECADES:
+        w, storage, loss = measured("fractional", decades, 0.01, 4)
+        bad = np.array([5, 12, 20])
+        storage[bad] *= 1.2
+        sweep = Sweep(22.0, w, storage, loss, np.arange(w.size, dtype=np.int64))
+        route = material_route((sweep,), Wlf(), 22.0, RouteSettings(replicates=0))
+        assert np.all(route.outlier[bad])
+        assert route.outliers <= 4
+
+
+def test_scatter_is_told_from_what_no_series_can_follow() -> None:
+    """3 % noise comes back within its sampling error of 10 %; a ripple of 10 % over a decade is misfit, not noise."""
+    w, storage, loss = measured("fractional", 20, 0.03, 5)
+    for wave, misfit in ((0.0, 0.0), (0.1, 0.1 / np.sqrt(2))):
+        rippled = storage * np.exp(wave * np.sin(2 * np.pi * np.log10(w)))
+        rich = rich_curve(w, rippled, loss)
+        found = scatter(w, np.log(rippled / rich.moduli(w)[0]), float(rich.leverage[0].sum()))
+        assert found.noise == pytest.approx(0.03, rel=0.25)
+        assert found.misfit == pytest.approx(misfit, rel=0.3)
+
+
+def test_a_band_wider_than_the_modulus_is_refused() -> None:
+    """Noise of a factor of three leaves E'' unknown: one line says where, and no band of thousands of per cent."""
+    with pytest.raises(InputError, match=r"bands: (storage|loss) modulus at .* rad/s: got a 95 % band of"):
+        route_of("fractional", 4, 1.2, 6)
