@@ -111,6 +111,12 @@ def tdms_record(path: Path) -> Any:
     return read_record(path, {name: f"rig/{name}" for name in names})
 
 
+def study_with_cases(path: Path) -> Any:
+    study = load_study(path)
+    study.cases()  # what cannot be is refused here at the latest
+    return study
+
+
 def study_is_sound(study: Any) -> bool:
     cases = study.cases()
     return bool(cases) and all(
@@ -132,8 +138,8 @@ def model_is_sound(model: Any) -> bool:
 
 
 READERS = (
-    Reader("study", ".yaml", file("config/study.yaml"), load_study, study_is_sound),
-    Reader("own study", ".yaml", file("tests/workflow/slurm/study.yaml"), load_study, study_is_sound),
+    Reader("study", ".yaml", file("config/study.yaml"), study_with_cases, study_is_sound),
+    Reader("own study", ".yaml", file("tests/workflow/slurm/study.yaml"), study_with_cases, study_is_sound),
     Reader("deck syntax", ".inp", deck, read_deck, lambda d: all(block.keyword for block in d.blocks)),
     Reader("deck for the engine", ".inp", deck, read_model, model_is_sound),
     Reader("deck for CalculiX", ".inp", deck, read_elastic_deck, lambda d: d.young == d.young and len(d.nodes) >= 8),
