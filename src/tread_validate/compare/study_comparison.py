@@ -157,7 +157,8 @@ def _groups(cases: Sequence[Case], exclude: Sequence[float]) -> dict[str, set[st
     groups = {
         "all": {case.case_id for case in cases},
         "rig": {case.case_id for case in rig},
-        "belt": {case.case_id for case in cases if not case.is_rig},
+        "belt": {case.case_id for case in cases if case.is_belt},
+        "track": {case.case_id for case in cases if case.path.family == "track"},
         "published": {
             case.case_id for case in rig if not any(abs(1e3 * case.interference - left) < 1e-9 for left in exclude)
         },
@@ -185,10 +186,10 @@ def _free_rolling_creep(spring_dir: Path, variants: Sequence[str]) -> dict[tuple
 def _sensitivity(
     cases: Sequence[Case], runs: Runs, sources: Sequence[str], references: Sequence[str]
 ) -> tuple[Sensitivity, ...]:
-    """Measure the scores' sensitivity on the last case that has both a reference and a prediction, per rig and belt."""
+    """Measure the scores' sensitivity on the last case that has both a reference and a prediction, per kind of path."""
     rows: list[Sensitivity] = []
-    for kind in (False, True):
-        for case in reversed([case for case in cases if case.is_rig == kind]):
+    for family in ("belt", "rig", "track"):
+        for case in reversed([case for case in cases if case.path.family == family]):
             reference = runs[references[0], case.case_id].history
             predicted = runs[sources[0], case.case_id].history
             if reference is not None and predicted is not None:

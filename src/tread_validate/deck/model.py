@@ -120,7 +120,7 @@ def write_mesh(deck: Deck, file: FilePath | str) -> None:
 
 def _motion(case: Case, mesh: BlockMesh, path: Path, pass_time: float) -> tuple[list[str], Placement, list[MountTable]]:
     """Return the text that says how the mount is held, where the block starts, and the mount's velocity tables."""
-    if case.is_rig:
+    if case.path.mount_is_rigid:
         return sections.ring(path), place_on_wheel(mesh, path), []
     curvature = _stress_free_curvature(case, path)
     rows = np.unique(np.round(mesh.s[mesh.mount_nodes], 9))

@@ -104,7 +104,8 @@ def mount_tables(path: Path, rows: FloatArray, pass_time: float, curvature: floa
     """Return the velocity tables of the mount rows at `rows` (mm) for the lead-in and a pass of `pass_time` (s)."""
     end = LEAD_IN + pass_time
     lead_in = np.linspace(0.0, LEAD_IN, round(LEAD_IN / LEAD_IN_STEP) + 1)
-    grid = np.concatenate([lead_in, np.arange(LEAD_IN + ARC_STEP / path.speed, end, ARC_STEP / path.speed), [end]])
+    step = min(ARC_STEP / path.speed, path.finest_time)
+    grid = np.concatenate([lead_in, np.arange(LEAD_IN + step, end, step), [end]])
     tables = []
     for row in rows:
         s = float(row) / DECK_LENGTH

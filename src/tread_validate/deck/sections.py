@@ -168,7 +168,7 @@ def initial_conditions(case: Case, block: BlockMesh, path: Path, velocities: Flo
         keyword("INITIAL CONDITIONS", TYPE="VELOCITY"),
         ", ".join(["ROAD_REF", *_road_rate(case, path)]),
     ]
-    if case.is_rig:
+    if case.path.mount_is_rigid:
         lines.append(f"RING_REF, 6, {number(_ring_rate(path))}")
     lines.append(table([node, dof, _round(velocities.ravel(), 3)], ["%d", "%d", "%.3f"]))
     return lines
@@ -176,10 +176,10 @@ def initial_conditions(case: Case, block: BlockMesh, path: Path, velocities: Flo
 
 def fixed_supports(case: Case) -> list[str]:
     """Build the degrees of freedom that never move."""
-    free = 1 if not case.is_rig else 6
+    free = 1 if not case.path.mount_is_rigid else 6
     lines = [keyword("BOUNDARY")]
     lines += [f"ROAD_REF, {first}, {last}" for first, last in ((1, free - 1), (free + 1, 6)) if first <= last]
-    lines.append("RING_REF, 1, 5" if case.is_rig else "MOUNT, 3, 3")
+    lines.append("RING_REF, 1, 5" if case.path.mount_is_rigid else "MOUNT, 3, 3")
     return lines
 
 
@@ -197,7 +197,7 @@ def steps(case: Case, path: Path, pass_time: float, tables: Sequence[MountTable]
         keyword("BOUNDARY", TYPE="VELOCITY"),
         f"ROAD_REF, {dof}, {dof}, {rate}",
     ]
-    if case.is_rig:
+    if case.path.mount_is_rigid:
         lines.append(f"RING_REF, 6, 6, {number(_ring_rate(path))}")
     for index in range(1, len(tables) + 1):
         for axis, direction in (("X", 1), ("Y", 2)):

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..study import Block
 from ..units import DEG, MM
+from .tread_block import Block
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ class MountLine(Protocol):
 
     @property
     def code(self) -> int:
-        """0: arc, flat, arc; 1: wheel; 2: table."""
+        """0: arc, flat, arc; 1: wheel; 2: table; 3: straight down and up."""
 
     @property
     def parameters(self) -> Array:
@@ -46,9 +46,21 @@ class MountLine(Protocol):
     def curvature(self, arc: ArrayLike) -> Array:
         """Return d theta / d arc at the arcs, 1/m."""
 
+    def rate(self, arc: ArrayLike) -> tuple[Array, Array]:
+        """Return d x / d arc and d y / d arc at the arcs."""
+
+
+class _Tangential:
+    """A line along which the mount moves, as every line of a rolling block is."""
+
+    def rate(self: MountLine, arc: ArrayLike) -> tuple[Array, Array]:
+        """Return d x / d arc and d y / d arc at the arcs."""
+        theta = self.mount(arc)[2]
+        return self.speed_ratio * np.cos(theta), self.speed_ratio * np.sin(theta)
+
 
 @dataclass(frozen=True)
-class ArcFlatArc:
+class ArcFlatArc(_Tangential):
     """A flat patch of given length between two arcs, symmetrical about arc 0 = x 0 (Fig. 15 of the paper).
 
     Attributes
@@ -94,7 +106,7 @@ class ArcFlatArc:
 
 
 @dataclass(frozen=True)
-class WheelLine:
+class WheelLine(_Tangential):
     """The ring on which the rig's block is mounted; the arc is counted on the tread surface.
 
     Attributes
@@ -143,7 +155,7 @@ class WheelLine:
 
 
 @dataclass(frozen=True)
-class TabulatedLine:
+class TabulatedLine(_Tangential):
     """A line given at equal arc steps, with cubic Hermite interpolation; beyond its ends it goes on as circles.
 
     Attributes

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..study import Case, Rig
+from .block import WidthProfile
 from .columns import Columns
 from .line import MountLine
 from .road import Road
-
-if TYPE_CHECKING:
-    from .block import WidthProfile
 
 Array = NDArray[np.float64]
 
@@ -63,6 +60,8 @@ class Path:
     contact_duration : float, s
         From the first touch until the last column's free face leaves the road. The rubber may let go earlier (it
         relaxes) or slightly later (it is sheared): allow a margin.
+    finest_time : float, s
+        Tables of the motion need points at least this close; ``inf`` where the arc's own spacing will do.
     """
 
     line: MountLine
@@ -73,6 +72,7 @@ class Path:
     interference: float
     first_touch_arc: float
     contact_duration: float
+    finest_time: float = math.inf
 
     def mount(self, arc: ArrayLike) -> tuple[Array, Array, Array]:
         """Return x, y (m) and theta (rad) of the mount line at the arcs (m)."""
@@ -86,25 +86,17 @@ class Path:
         """Return place and motion of the mount points of the columns at `s` (m) at the times `t` (s), broadcast."""
         arc = self.column_arc(s, t)
         x, y, theta = self.line.mount(arc)
-        along = self.speed * self.line.speed_ratio
-        return MountMotion(
-            x, y, theta, along * np.cos(theta), along * np.sin(theta), self.speed * self.line.curvature(arc)
-        )
+        forward, up = self.line.rate(arc)
+        x = x + self.columns.x_offset(s)
+        return MountMotion(x, y, theta, self.speed * forward, self.speed * up, self.speed * self.line.curvature(arc))
 
     def free_face(self, s: ArrayLike, t: ArrayLike) -> tuple[Array, Array]:
         """Return x, y (m) of the stress-free face of the columns at `s` (m) at the times `t` (s), broadcast."""
         x, y, theta = self.line.mount(self.column_arc(s, t))
         height = self.columns.column_height(s)
+        x = x + self.columns.x_offset(s)
         return x + height * np.sin(theta), y - height * np.cos(theta)
 
     def indentation(self, s: ArrayLike, t: ArrayLike) -> Array:
         """Return how deep the stress-free face would stand in the road, m; negative where it is clear of it."""
         return -self.road.gap(*self.free_face(s, t))
-
-
-def path_of(case: Case) -> Path:
-    """Return the path of a case, rig or belt; raises `InputError` where the block cannot touch or is too deep."""
-    from .belt import belt_path
-    from .rig import rig_path
-
-    return rig_path(case) if isinstance(case.path, Rig) else belt_path(case)

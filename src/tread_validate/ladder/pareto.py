@@ -21,7 +21,7 @@ RUNGS = ("paper", "bonded_theory", "bonded", "coupled_coarse", "coupled")
 GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
     ("all", lambda case: True),
     ("rig", lambda case: case.is_rig),
-    ("belt", lambda case: not case.is_rig),
+    ("belt", lambda case: case.is_belt),
 )
 SMALL_FORCE = 2.0
 """N: a tangential peak is right within 10 per cent or within this."""

@@ -15,7 +15,7 @@ class Motion(NamedTuple):
 
     Attributes
     ----------
-    code, parameters, table : int, (3,) array, (n, 4) array
+    code, parameters, table : int, (k,) array, (n, 4) array
         The mount line, see `tread_validate.geometry.line`.
     speed : float, m/s
         Rate of the arc.

@@ -12,25 +12,30 @@ import math
 from ..kernels import kernel
 from .inputs import Motion
 
-Foot = tuple[float, float, float, float, float]
+Foot = tuple[float, float, float, float, float, float]
 
 
 @kernel()
 def foot(motion: Motion, arc: float) -> Foot:
-    """Return x, y (m), sin and cos of theta, and d theta/dt (rad/s) of the mount line at an arc (m)."""
+    """Return what the foot of the mount line does at an arc (m).
+
+    x, y (m), sin and cos of theta, d theta/dt (rad/s), and the speed along the neutral line, towards the road (m/s).
+    """
     if motion.code == 0:
         half, radius, height = motion.parameters[0], motion.parameters[1], motion.parameters[2]
         flat = min(max(arc, -half), half)
         if -half <= arc < half:
-            return arc, height, 0.0, 1.0, 0.0
+            return arc, height, 0.0, 1.0, 0.0, 0.0
         theta = (arc - flat) / radius
         sine, cosine = math.sin(theta), math.cos(theta)
-        return flat + radius * sine, height + radius * (1.0 - cosine), sine, cosine, motion.speed / radius
+        return flat + radius * sine, height + radius * (1.0 - cosine), sine, cosine, motion.speed / radius, 0.0
     if motion.code == 1:
         surface, mount, axle = motion.parameters[0], motion.parameters[1], motion.parameters[2]
         theta = arc / surface
         sine, cosine = math.sin(theta), math.cos(theta)
-        return mount * sine, axle - mount * cosine, sine, cosine, motion.speed / surface
+        return mount * sine, axle - mount * cosine, sine, cosine, motion.speed / surface, 0.0
+    if motion.code == 3:
+        return _pressed_foot(motion, arc)
     return _table_foot(motion, arc)
 
 
@@ -58,13 +63,31 @@ def _table_foot(motion: Motion, arc: float) -> Foot:
         x += chord * math.cos(theta + half)
         y += chord * math.sin(theta + half)
         theta += 2.0 * half
-    return x, y, math.sin(theta), math.cos(theta), motion.speed * bend
+    return x, y, math.sin(theta), math.cos(theta), motion.speed * bend, 0.0
+
+
+@kernel()
+def _pressed_foot(motion: Motion, arc: float) -> Foot:
+    height, depth, pressed, released, left = motion.parameters
+    quarter = 0.5 * math.pi
+    down, up = quarter * arc / pressed, quarter * (arc - released) / (left - released)
+    if arc < 0.0:
+        sunk, rate = down, 1.0 / pressed
+    elif arc < pressed:
+        sunk, rate = math.sin(down), math.cos(down) / pressed
+    elif arc < released:
+        sunk, rate = 1.0, 0.0
+    elif arc < left:
+        sunk, rate = math.cos(up), -math.sin(up) / (left - released)
+    else:
+        sunk, rate = quarter - up, -1.0 / (left - released)
+    return 0.0, height - depth * sunk, 0.0, 1.0, 0.0, quarter * depth * motion.speed * rate
 
 
 @kernel()
 def sticking(motion: Motion, at: Foot, c: float) -> tuple[float, float, float, float]:
     """Return delta, lambda (m) and their rates (m/s) while C rides on the road at the place `c`."""
-    x, y, sine, cosine, turn = at
+    x, y, sine, cosine, turn, sinking = at
     if motion.road_curvature == 0.0:
         bx, by, ex, ey = c - x, -y, 1.0, 0.0
     else:
@@ -72,7 +95,7 @@ def sticking(motion: Motion, at: Foot, c: float) -> tuple[float, float, float, f
         bx, by = -ey / motion.road_curvature - x, (ex - 1.0) / motion.road_curvature - y
     delta = bx * sine - by * cosine
     lag = bx * cosine + by * sine
-    d_delta = motion.road_speed * (ex * sine - ey * cosine) + lag * turn
+    d_delta = motion.road_speed * (ex * sine - ey * cosine) + lag * turn - sinking
     d_lag = motion.road_speed * (ex * cosine + ey * sine) - motion.speed * motion.speed_ratio - delta * turn
     return delta, lag, d_delta, d_lag
 
@@ -85,7 +108,7 @@ def sliding(motion: Motion, at: Foot, lag: float) -> tuple[float, float, float, 
     and the two parts of the rate of delta: ``d delta/dt = slope (d lambda/dt) + drift``, slope being d delta/d lambda
     again and drift in m/s.
     """
-    x, y, sine, cosine, turn = at
+    x, y, sine, cosine, turn, sinking = at
     if motion.road_curvature == 0.0:
         delta = (y + lag * sine) / cosine
         c = x + delta * sine + lag * cosine
@@ -101,4 +124,4 @@ def sliding(motion: Motion, at: Foot, lag: float) -> tuple[float, float, float, 
     ahead, down = ex * cosine + ey * sine, ex * sine - ey * cosine
     slope = down / ahead
     mount = motion.speed * motion.speed_ratio + delta * turn
-    return delta, c, motion.road_speed * ahead - mount, slope, slope * mount + lag * turn
+    return delta, c, motion.road_speed * ahead - mount, slope, slope * mount + lag * turn - sinking

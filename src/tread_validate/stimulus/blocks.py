@@ -16,8 +16,8 @@ SAME_LENGTH = 1e-6  # m
 
 def belt_case(case: Case) -> Case:
     """Return the case, which must be a belt case with a known creep ratio."""
-    if case.is_rig:
-        raise InputError(f"case {case.case_id}: path", case.path_name, "a belt: the rig's wheels are not a tyre")
+    if not case.is_belt:
+        raise InputError(f"case {case.case_id}: path", case.path_name, "a belt: nothing else is a tyre")
     if case.creep_ratio is None:
         raise InputError(f"case {case.case_id}: creep_ratio", "none", "a resolved free-rolling case")
     return case

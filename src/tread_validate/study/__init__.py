@@ -1,8 +1,8 @@
 """What is to be run: a study file, its models and its cases."""
 
 from ..friction import Coulomb, Friction, FrictionTable, Huemer, HuemerFile, Power
+from ..geometry import Block, FlatTrack, MeasuredBelt, PathEntry, Rig, SimplifiedBelt, Sipe
 from ..yaml_text import load_yaml
-from .block import Block, Sipe
 from .case import Case, conditions_digest, problems_digest, with_mesh
 from .compound import (
     Compound,
@@ -16,12 +16,11 @@ from .compound import (
 )
 from .document import Study
 from .load import LoadedStudy, load_study
-from .path import MeasuredBelt, Rig, SimplifiedBelt, Wheel
 from .settings import DeckSettings, SpringSettings
 
 __all__ = [
-    "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FractionalZener", "Friction",
-    "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "Power", "PronyCompound", "PronyFile",
-    "PronyTerm", "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wheel", "Wlf",
+    "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FlatTrack", "FractionalZener", "Friction",
+    "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "PathEntry", "Power", "PronyCompound",
+    "PronyFile", "PronyTerm", "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wlf",
     "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
 ]  # fmt: skip

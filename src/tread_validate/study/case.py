@@ -10,12 +10,11 @@ from typing import Annotated
 
 from ..fields import Label, Numerics, Sourced
 from ..friction import Friction
+from ..geometry import Block, PathEntry
 from ..model_file import as_model
 from ..units import MM, PERCENT
-from .block import Block
 from .compound import Compound
 from .digest import digest_of
-from .path import MeasuredBelt, Rig, Wheel
 from .settings import DeckSettings, SpringSettings
 
 
@@ -53,7 +52,7 @@ class Case:
     compound: Compound
     friction: Friction
     block: Block
-    path: Wheel
+    path: PathEntry
     temperature: float
     interference: float
     speed: float
@@ -67,7 +66,12 @@ class Case:
     @property
     def is_rig(self) -> bool:
         """Whether the block rolls on the two-wheel rig."""
-        return isinstance(self.path, Rig)
+        return self.path.family == "rig"
+
+    @property
+    def is_belt(self) -> bool:
+        """Whether the block rolls on a tyre's belt."""
+        return self.path.family == "belt"
 
     @property
     def length(self) -> float:
@@ -131,7 +135,7 @@ class Case:
             "speed_rpm": self.speed_rpm,
             "creep_percent": None if self.creep_ratio is None else round(self.creep_ratio / PERCENT, 9),
             "free_rolling": self.free_rolling,
-            "measured_profile": isinstance(self.path, MeasuredBelt),
+            "measured_profile": self.path.is_measured,
             "assumed": "; ".join(self.assumed()),
         }
 

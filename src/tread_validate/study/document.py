@@ -8,10 +8,9 @@ from pydantic import Field, model_validator
 
 from ..fields import Label, Line, Name, Numerics, Strict
 from ..friction import Friction
-from .block import Block
+from ..geometry import AnyPath, Block
 from .compound import Compound
 from .own_model import OwnModel
-from .path import Wheel
 from .run import Run
 from .settings import DeckSettings, SpringSettings
 
@@ -26,7 +25,7 @@ class Study(Strict):
     compounds: Annotated[dict[Name, Compound], Field(min_length=1)]
     friction_laws: Annotated[dict[Name, Friction], Field(min_length=1)]
     blocks: Annotated[dict[Name, Block], Field(min_length=1)]
-    paths: Annotated[dict[Name, Wheel], Field(min_length=1)]
+    paths: Annotated[dict[Name, AnyPath], Field(min_length=1)]
     runs: Annotated[tuple[Run, ...], Field(min_length=1)]
     models: Annotated[dict[Name, OwnModel], Label("which further models run; each result names its own code")] = Field(
         {}, description="models of your own, by name: Python functions, commands, or histories made elsewhere"

@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..units import MM, PERCENT, RPM
+from ..units import MM, PERCENT
 from .case import Case
 from .document import Study
 from .factors import FACTORS
-from .path import Rig
 from .run import Run
 
 LONGEST_ID = 64
@@ -54,19 +53,23 @@ def _case(
     if level["poissons_ratio"] is not None:
         compound = compound.model_copy(update={"poissons_ratio": level["poissons_ratio"]})
     if run.speed_rpm is not None:
-        if not isinstance(path, Rig):
+        turning = path.surface_speed(level["speed"])
+        if turning is None:
             raise InputError(f"{where}.speed_rpm", level["speed"], f"speed_m_s: path {level['path']} is not a rig")
-        speed = level["speed"] * RPM * 0.5 * path.small_wheel_diameter_mm * MM
+        speed = turning
     else:
         speed = level["speed"]
+    if not path.rolls and level["creep"] != 0.0:
+        raise InputError(f"{where}.creep_percent", level["creep"], f"0: the block on {level['path']} does not roll")
     if level["interference_mm"] >= block.height_mm:
         raise InputError(
             f"{where}.interference_mm",
             level["interference_mm"],
             f"less than the block's height, {block.height_mm:g} mm",
         )
-    if isinstance(path, Rig) and block.height_mm >= 0.5 * path.small_wheel_diameter_mm:
-        raise InputError(f"{where}.block", f"height {block.height_mm:g} mm", "less than the small wheel's radius")
+    limit = path.tallest_block()
+    if limit is not None and block.height_mm >= limit[0]:
+        raise InputError(f"{where}.block", f"height {block.height_mm:g} mm", f"less than {limit[1]}")
     pole = compound.wlf.reference_temperature_degC - compound.wlf.c2_K
     if level["temperature_degC"] <= pole:
         raise InputError(f"{where}.temperature_degC", level["temperature_degC"], f"above the WLF pole, {pole:g} degC")
@@ -92,7 +95,7 @@ def _case(
         spring=study.spring,
         deck=study.deck,
         root=root,
-        speed_rpm=speed / (0.5 * path.small_wheel_diameter_mm * MM) / RPM if isinstance(path, Rig) else None,
+        speed_rpm=path.revolutions(speed),
     )
 
 

@@ -85,7 +85,7 @@ class Evidence:
     def belt_case(self, *, measured: bool, creep_ratio: float | None = None) -> Case | None:
         """Return the first belt case on the measured or simplified profile; free rolling where no creep is given."""
         for case in self.cases:
-            if case.is_rig or is_measured(case) != measured:
+            if not case.is_belt or is_measured(case) != measured:
                 continue
             if creep_ratio is None:
                 fits = case.free_rolling
@@ -98,7 +98,7 @@ class Evidence:
 
     def belt_cases(self) -> tuple[Case, ...]:
         """Return every tyre case."""
-        return tuple(case for case in self.cases if not case.is_rig)
+        return tuple(case for case in self.cases if case.is_belt)
 
     def rig_cases(self) -> tuple[Case, ...]:
         """Return every rig case."""
@@ -128,7 +128,7 @@ def nothing(note: str, status: str = "missing", cases: Sequence[str] = ()) -> Co
 
 def is_measured(case: Case) -> bool:
     """Tell whether a tyre case runs on a measured trace."""
-    return case.path.kind == "measured_belt"
+    return case.path.is_measured
 
 
 def judge(published: PublishedValue, kind: str, source: str, computed: Computed) -> Claim:

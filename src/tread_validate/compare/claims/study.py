@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...geometry.path import path_of
+from ...geometry import path_of
 from ...geometry.trace_curvature import three_point_curvature
 from ...geometry.trace_file import read_belt
 from ...material import prony_series

@@ -130,6 +130,21 @@ def belt_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
     return draw(folder, "belt-sketch", f"The tyre belt, {_named(case.path_name, case)}", caption, paint, marks)
 
 
+def track_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
+    """Draw what is prescribed on a path where the block does not roll."""
+    sketch = case.path.sketch(path_of(case))
+
+    def paint(axes: Axes) -> None:
+        for (label, (x, y)), (color, style) in zip(sketch.curves.items(), STYLES, strict=False):
+            axes.plot(x, y, style, color=color, label=label)
+        axes.set(xlabel=sketch.x_label, ylabel=sketch.y_label)
+        axes.legend()
+
+    caption = f"Prescribed motion of block {case.block_name.replace('_', ' ')} at {case.interference / MM:g} mm."
+    key = f"track-sketch-{case.path_name}".replace("_", "-")
+    return draw(folder, key, f"The flat track, {_named(case.path_name, case)}", caption, paint, marks)
+
+
 def _ridges(case: Case) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
     """Return the smoothed ridges of a measured belt: all of a belt file, the used one of raw heights."""
     assert isinstance(case.path, MeasuredBelt)

@@ -9,8 +9,9 @@ from pathlib import Path
 import pandas as pd
 
 from ...compare.rig_peaks import RigPeak
+from ...geometry import Family
 from ...history import History
-from ...study import Case, LoadedStudy, MeasuredBelt, Rig
+from ...study import Case, LoadedStudy
 from .. import wording
 from ..cases import CaseView
 from ..content import Mark
@@ -68,7 +69,7 @@ class Studio:
 
     def _figure5(self) -> tuple[Drawn, ...]:
         """Parallelogram at 300 rpm and 0.2 mm, at both temperatures: the case nearest to that for each."""
-        rig = [view for view in self.views if view.row.path in self._paths(Rig)]
+        rig = [view for view in self.views if view.row.path in self._paths("rig")]
         if not rig:
             return ()
         wanted = {"shape": "parallelogram", "speed_rpm": 300.0, "interference_mm": 0.2}
@@ -87,8 +88,8 @@ class Studio:
         return tuple(found)
 
     def _belts(self) -> tuple[Drawn, ...]:
-        measured = self._paths(MeasuredBelt)
-        simplified = self._paths(None) - self._paths(Rig) - measured
+        measured = self._paths("belt", measured=True)
+        simplified = self._paths("belt", measured=False)
         found: list[Drawn] = []
         for names, number in ((measured, "14"), (simplified, "16")):
             for view in [view for view in self.views if view.row.path in names][:1]:
@@ -110,7 +111,7 @@ class Studio:
         )
 
     def _peaks(self) -> tuple[Drawn, ...]:
-        rig = [view for view in self.views if view.row.path in self._paths(Rig)]
+        rig = [view for view in self.views if view.row.path in self._paths("rig")]
         grids: dict[tuple[str, str], list[CaseView]] = {}
         for view in rig:
             grids.setdefault((view.row.shape, view.levels["temperature_degC"]), []).append(view)
@@ -170,8 +171,8 @@ class Studio:
     def geometry(self) -> tuple[Drawn, ...]:
         """Draw belt, rig and meshes."""
         cases = {case.path_name: case for case in reversed(self._cases())}
-        belts = {name: case for name, case in reversed(cases.items()) if not isinstance(case.path, Rig)}
-        rigs = [case for case in cases.values() if isinstance(case.path, Rig)]
+        belts = {name: case for name, case in reversed(cases.items()) if case.is_belt}
+        rigs = [case for case in cases.values() if case.is_rig]
         found: list[Drawn] = []
         if belts:
             marks = self.marks.of(
@@ -185,6 +186,11 @@ class Studio:
             found.append(geometry.belt_sketch(self.folder, first, self.input_marks(f"path {first.path_name}")))
         found += [
             geometry.rig_sketch(self.folder, case, self.input_marks(f"path {case.path_name}")) for case in rigs[:1]
+        ]
+        found += [
+            geometry.track_sketch(self.folder, case, self.input_marks(f"path {name}"))
+            for name, case in reversed(cases.items())
+            if case.path.family == "track"
         ]
         blocks = {case.block_name: case for case in reversed(self._cases())}
         for name, case in reversed(blocks.items()):
@@ -212,9 +218,12 @@ class Studio:
             found[labels.get(case.case_id, case.case_id)] = case
         return found
 
-    def _paths(self, kind: type | None) -> set[str]:
-        paths = self.study.model.paths
-        return {name for name, path in paths.items() if kind is None or isinstance(path, kind)}
+    def _paths(self, family: Family, measured: bool | None = None) -> set[str]:
+        return {
+            name
+            for name, path in self.study.model.paths.items()
+            if path.family == family and measured in (None, path.is_measured)
+        }
 
     def input_marks(self, name: str) -> tuple[Mark, ...]:
         """Return the mark of one input, if it is assumed or synthetic."""

@@ -1,4 +1,4 @@
-"""Tread blocks as a study gives them."""
+"""Tread blocks as a study gives them: plan shape, height, sipes, stress-free shape."""
 
 from __future__ import annotations
 

@@ -1,0 +1,138 @@
+"""What every kind of path has: its entry in a study, and what a run must be for it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import ClassVar, Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..fields import Sourced
+from .path import Path
+from .tread_block import Block
+
+Array = NDArray[np.float64]
+Family = Literal["rig", "belt", "track"]
+
+
+class Conditions(Protocol):
+    """What a path needs to know of a run, in SI; a `Case` has it."""
+
+    @property
+    def case_id(self) -> str:
+        """Names the run in an error."""
+
+    @property
+    def block(self) -> Block:
+        """The block."""
+
+    @property
+    def path(self) -> PathEntry:
+        """The path."""
+
+    @property
+    def height(self) -> float:
+        """Height of the block, m."""
+
+    @property
+    def interference(self) -> float:
+        """Largest compression, m."""
+
+    @property
+    def speed(self) -> float:
+        """Rate of the arc, m/s."""
+
+    @property
+    def root(self) -> FilePath:
+        """Folder that file names are relative to."""
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """Curves that show a path, for a figure.
+
+    Attributes
+    ----------
+    x_label, y_label : str
+        With units.
+    curves : mapping of label to (x, y) arrays
+        The first is the mount.
+    """
+
+    x_label: str
+    y_label: str
+    curves: dict[str, tuple[Array, Array]]
+
+
+class PathEntry(Sourced, ABC):
+    """A path as a study gives it.
+
+    Attributes
+    ----------
+    family : str
+        ``rig``, ``belt`` or ``track``: what the reports group by and which measurements there can be.
+    rolls : bool
+        Whether the block moves with the road, so that a creep ratio has a meaning.
+    mount_is_rigid : bool
+        Whether the mount turns as one rigid ring; else each row of it follows the path.
+    is_measured : bool
+        Whether the path comes from a measured shape.
+    """
+
+    family: ClassVar[Family]
+    rolls: ClassVar[bool] = True
+    mount_is_rigid: ClassVar[bool] = False
+    is_measured: ClassVar[bool] = False
+
+    kind: str
+
+    @abstractmethod
+    def build(self, run: Conditions) -> Path:
+        """Return the path of a run.
+
+        Raises `InputError` where the block cannot touch the road, is pressed too deep, or a data file will not do.
+        """
+
+    def surface_speed(self, rpm: float) -> float | None:
+        """Return the surface speed in m/s at a number of revolutions per minute; None where nothing turns."""
+        return None
+
+    def revolutions(self, speed: float) -> float | None:
+        """Return the number of revolutions per minute at a surface speed in m/s; None where nothing turns."""
+        return None
+
+    def tallest_block(self) -> tuple[float, str] | None:
+        """Return the height in mm that a block must stay under, and in words what sets it; None without a limit."""
+        return None
+
+    def sketch(self, path: Path) -> Sketch:
+        """Return the mount's line and the road, in mm."""
+        half = 0.6 * path.speed * path.contact_duration
+        arc = np.linspace(-half, half, 401)
+        x, y, _ = path.mount(arc)
+        road = np.linspace(float(x.min()), float(x.max()), 401)
+        fall = np.zeros(road.size)
+        if not path.road.is_plane:
+            fall = np.sqrt(np.maximum(path.road.radius**2 - road**2, 0.0)) - path.road.radius
+        return Sketch("x, mm", "y, mm", {"mount": (1e3 * x, 1e3 * y), "road": (1e3 * road, 1e3 * fall)})
+
+
+def check_interference(run: Conditions) -> None:
+    """Raise `InputError` unless 0 < interference < height."""
+    if not run.interference > 0.0:
+        raise InputError(
+            f"case {run.case_id}: interference", f"{run.interference:g} m", "more than 0, or the block never touches"
+        )
+    if not run.interference < run.height:
+        raise InputError(
+            f"case {run.case_id}: interference", f"{run.interference:g} m", f"less than its height {run.height:g} m"
+        )
+
+
+def path_of(run: Conditions) -> Path:
+    """Return the path of a case; raises `InputError` where the block cannot touch or is too deep."""
+    return run.path.build(run)
