@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from .amplitude import Amplitude
-from .explicit_kernel import Amplitudes, Bodies, Loads, Prescribed
+from .kernel_data import Amplitudes, Bodies, Loads, Prescribed
 from .model import Model
 from .steps import FIXED, Condition, Step
 

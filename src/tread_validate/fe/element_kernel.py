@@ -20,13 +20,15 @@ FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}
 # Rows of the geometry of a block: gradients B[j, a] (24), hourglass offsets G[alpha, j] (12), then scalars.
 GEO_B, GEO_G, GEO_VOLUME, GEO_HOURGLASS, GEO_BULK_LINEAR, GEO_BULK_QUADRATIC, GEO_VISCOUS = 0, 24, 36, 37, 38, 39, 40
 GEO_ROWS = 41
-# Rows of the state of a block: right stretch U (6: 11, 22, 33, 12, 13, 23), long-term strain (6), bulk viscous work.
-STATE_U, STATE_STRAIN, STATE_BULK = 0, 6, 12
-STATE_ROWS = 13
+# Rows of the state of a block: right stretch U (6: 11, 22, 33, 12, 13, 23), long-term strain (6), bulk viscous work,
+# work of the stress, both of the element's reference volume; Kirchhoff stress in the rotated frame (11, 22, 33, 12, 13,
+# 23) and bulk viscous pressure times J at the end of the increment before.
+STATE_U, STATE_STRAIN, STATE_BULK, STATE_WORK, STATE_STRESS, STATE_VISCOUS = 0, 6, 12, 13, 14, 20
+STATE_ROWS = 21
 # Rows of the working set: displacements, later forces (24), F (9), R (9), hourglass (12), strain increment (6),
 # hereditary strain (6), J U^-1 and J (7), Piola-Kirchhoff stress (9), then copies of geometry and state.
 _U, _F, _R, _Q, _D, _S, _I, _P, _G, _T = 0, 24, 33, 42, 54, 60, 66, 73, 82, 123
-WORK_ROWS = 136
+WORK_ROWS = 144
 
 
 @kernel(fastmath=FAST, boundscheck=False)
@@ -318,17 +320,51 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             viscous = (
                 w[(_G + GEO_BULK_LINEAR) * n + i] * rate - w[(_G + GEO_BULK_QUADRATIC) * n + i] * squeeze * squeeze
             )
-            jacobian = w[(_I + 6) * n + i]
-            w[(_T + STATE_BULK) * n + i] += w[(_G + GEO_VOLUME) * n + i] * jacobian * viscous * rate * dt
             d0 = w[_S * n + i]
             d1 = w[(_S + 1) * n + i]
-            mean = bulk * w[(_S + 5) * n + i] + viscous
+            mean = bulk * w[(_S + 5) * n + i]
             t0 = shear * d0 + mean
             t1 = shear * d1 + mean
             t2 = mean - shear * (d0 + d1)
             t3 = shear * w[(_S + 2) * n + i]
             t4 = shear * w[(_S + 3) * n + i]
             t5 = shear * w[(_S + 4) * n + i]
+            # works over the increment by the trapezoidal rule, which is the balance of central differences
+            jacobian = w[(_I + 6) * n + i]
+            third = w[(_D + 5) * n + i] / 3.0
+            e0 = w[_D * n + i]
+            e1 = w[(_D + 1) * n + i]
+            e2 = third - e0 - e1
+            e0 += third
+            e1 += third
+            so = (_T + STATE_STRESS) * n + i
+            half = 0.5 * w[(_G + GEO_VOLUME) * n + i]
+            z00 = jacobian * t0
+            z01 = jacobian * t1
+            z02 = jacobian * t2
+            z10 = jacobian * t3
+            z11 = jacobian * t4
+            z12 = jacobian * t5
+            w[(_T + STATE_WORK) * n + i] += half * (
+                (w[so] + z00) * e0
+                + (w[so + n] + z01) * e1
+                + (w[so + 2 * n] + z02) * e2
+                + 2.0 * (w[so + 3 * n] + z10) * w[(_D + 2) * n + i]
+                + 2.0 * (w[so + 4 * n] + z11) * w[(_D + 3) * n + i]
+                + 2.0 * (w[so + 5 * n] + z12) * w[(_D + 4) * n + i]
+            )
+            w[so] = z00
+            w[so + n] = z01
+            w[so + 2 * n] = z02
+            w[so + 3 * n] = z10
+            w[so + 4 * n] = z11
+            w[so + 5 * n] = z12
+            z00 = jacobian * viscous
+            w[(_T + STATE_BULK) * n + i] += half * (w[(_T + STATE_VISCOUS) * n + i] + z00) * w[(_D + 5) * n + i]
+            w[(_T + STATE_VISCOUS) * n + i] = z00
+            t0 += viscous
+            t1 += viscous
+            t2 += viscous
             k0 = w[_I * n + i]
             k1 = w[(_I + 1) * n + i]
             k2 = w[(_I + 2) * n + i]

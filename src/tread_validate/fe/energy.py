@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..kernels import kernel
-from .element_kernel import GEO_G, GEO_HOURGLASS, GEO_VOLUME, LANES, STATE_BULK, STATE_STRAIN
+from .element_kernel import GEO_G, GEO_HOURGLASS, GEO_VOLUME, LANES, STATE_BULK, STATE_STRAIN, STATE_WORK
 
 COLUMNS = (
     "time_s",
@@ -16,27 +16,28 @@ COLUMNS = (
     "bulk_viscous",
     "kinetic",
     "frictional",
+    "contact_impact",
     "external_work",
     "total",
 )
 
 
 @kernel(fastmath=True)
-def element_energies(elements, weights, times, u):  # type: ignore[no-untyped-def]
-    """Return stored energy, dissipation rate, hourglass energy and bulk viscous work of all elements.
+def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]
+    """Return recoverable energy, work of the stress, hourglass energy and bulk viscous work of all elements.
 
-    A term of weight g holds q = g e for its spring's strain e: it stores (2 G |dev q|^2 + K tr q^2)/(2 g) and
-    dissipates twice that over its relaxation time. Per reference volume.
+    A term of weight g holds q = g e for its spring's strain e: it stores (2 G |dev q|^2 + K tr q^2)/(2 g), per
+    reference volume. The work of the stress is summed by `block_forces`; what of it is not stored has been dissipated.
 
     Parameters
     ----------
     elements : Elements
-    weights : (kinds, terms, 2), times : (kinds, terms)
+    weights : (kinds, terms, 2)
     """
     n = LANES
     d = np.empty(8)
     stored = 0.0
-    rate = 0.0
+    stress_work = 0.0
     hourglass = 0.0
     bulk_work = 0.0
     terms = elements.hist.shape[1]
@@ -49,6 +50,7 @@ def element_energies(elements, weights, times, u):  # type: ignore[no-untyped-de
             if volume == 0.0:
                 continue
             bulk_work += elements.state[b, STATE_BULK, i]
+            stress_work += elements.state[b, STATE_WORK, i]
             e = STATE_STRAIN
             d0, d1 = elements.state[b, e, i], elements.state[b, e + 1, i]
             d2, d3, d4 = elements.state[b, e + 2, i], elements.state[b, e + 3, i], elements.state[b, e + 4, i]
@@ -57,19 +59,16 @@ def element_energies(elements, weights, times, u):  # type: ignore[no-untyped-de
             own = 0.5 * (two_g * elements.elastic[k, 2] * shape + bulk * elements.elastic[k, 3] * theta * theta)
             stored += volume * own
             for t in range(terms):
-                tau = times[k, t]
                 if weights[k, t, 0] > 0.0:
                     d0, d1 = elements.hist[b, t, 0, i], elements.hist[b, t, 1, i]
                     d2, d3, d4 = elements.hist[b, t, 2, i], elements.hist[b, t, 3, i], elements.hist[b, t, 4, i]
                     shape = d0 * d0 + d1 * d1 + (d0 + d1) ** 2 + 2.0 * (d2 * d2 + d3 * d3 + d4 * d4)
                     own = 0.5 * two_g * shape / weights[k, t, 0]
                     stored += volume * own
-                    rate += volume * 2.0 * own / tau
                 if weights[k, t, 1] > 0.0:
                     theta = elements.hist[b, t, 5, i]
                     own = 0.5 * bulk * theta * theta / weights[k, t, 1]
                     stored += volume * own
-                    rate += volume * 2.0 * own / tau
             stiff = 0.5 * elements.geo[b, GEO_HOURGLASS, i]
             for c in range(3):
                 fx = 0.0
@@ -94,7 +93,7 @@ def element_energies(elements, weights, times, u):  # type: ignore[no-untyped-de
                     g = GEO_G + 3 * alpha
                     q -= fx * elements.geo[b, g, i] + fy * elements.geo[b, g + 1, i] + fz * elements.geo[b, g + 2, i]
                     hourglass += stiff * (0.125 * q) ** 2
-    return stored, rate, hourglass, bulk_work
+    return stored, stress_work, hourglass, bulk_work
 
 
 @kernel(fastmath=True)

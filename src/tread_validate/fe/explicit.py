@@ -17,15 +17,24 @@ from .constraints import gather_amplitudes, gather_bodies, gather_loads, gather_
 from .contact_kernel import face_areas
 from .element_kernel import LANES, WORK_ROWS
 from .energy import element_energies, kinetic_energy
-from .explicit_kernel import (
-    BAD_FRICTION,
-    CHUNKS,
-    INVERTED,
+from .explicit_kernel import BAD_FRICTION, CHUNKS, INVERTED, advance
+from .kernel_data import (
+    CLOCK_ROWS,
+    EXTERNAL,
+    FRICTION,
+    IMPACT,
+    LAST_INCREMENT,
+    OPEN,
+    SLIPS,
+    STEP_NUMBER,
+    STEP_TIME,
+    TOTAL_TIME,
+    USER,
+    WORK_SUMS,
     Bodies,
     Elements,
     Nodes,
     Prescribed,
-    advance,
 )
 from .model import Model
 from .pairs import PairData, gather_pairs
@@ -93,11 +102,8 @@ class Simulation:
         self.nodes.v.reshape(-1, 3)[:-1][mass == 0] = 0.0
         self.elements = self._elements()
         self.bodies: Bodies = gather_bodies(model, mass)
-        self.clock = np.zeros(5)
-        self.work = np.zeros(4)
-        self.dissipated = 0.0
-        self._rate = 0.0
-        self._rate_time = 0.0
+        self.clock = np.zeros(CLOCK_ROWS)
+        self.work = np.zeros(WORK_SUMS)
         self.increments = 0
         self.kernel_seconds = 0.0
         self.smallest = math.inf
@@ -189,7 +195,7 @@ class Simulation:
                 left = round((step.period - done) / dt)
                 count = min(max(1, math.ceil(wanted - 1e-9) + 1), left)
                 self._advance(count, dt)
-                done = self.clock[1]
+                done = self.clock[STEP_TIME]
                 while mark * interval <= done - dt + 1e-9 * dt:
                     mark += 1
                 last = done >= step.period * (1.0 - 1e-12)
@@ -197,17 +203,17 @@ class Simulation:
                 if self.observer is not None and number == len(self.model.steps) - 1:
                     self.observer(done)
                 if progress is not None:
-                    share = self.clock[0] / self.duration
+                    share = self.clock[TOTAL_TIME] / self.duration
                     spent = clock_module.monotonic() - begun
                     progress(share, spent * max(1.0 / share - 1.0, 0.0))
 
     def _begin(self, number: int, step: Step) -> None:
-        self.clock[1] = 0.0
-        self.clock[3] = number + 1
-        self.amplitudes, rows = gather_amplitudes(step, self.clock[0])
+        self.clock[STEP_TIME] = 0.0
+        self.clock[STEP_NUMBER] = number + 1
+        self.amplitudes, rows = gather_amplitudes(step, self.clock[TOTAL_TIME])
         a = self.amplitudes
         evaluate_amplitudes(
-            a.row, a.time, a.table, a.area_table, a.smooth, a.base, a.guess, self.clock[0], a.value, a.area
+            a.row, a.time, a.table, a.area_table, a.smooth, a.base, a.guess, self.clock[TOTAL_TIME], a.value, a.area
         )
         mass = self.blocks.mass
         self.prescribed = gather_prescribed(self.model, step, rows, a, self.nodes.u, self.bodies, mass)
@@ -244,7 +250,7 @@ class Simulation:
         self.increments += count
         if fault[0] == INVERTED:
             raise EngineError(
-                f"an element turned inside out at {self.clock[0]:.6g} s: increment too long or mesh too coarse"
+                f"an element turned inside out at {self.clock[TOTAL_TIME]:.6g} s: increment too long or mesh too coarse"
             )
         if fault[0] == BAD_FRICTION:
             raise self._friction_error(int(fault[1]), int(fault[2]))
@@ -263,7 +269,7 @@ class Simulation:
         force = pair.tangential[contact]
         source = self.routine.source if self.routine else data.contact.where
         return InputError(
-            f"{source}: VFRIC at {self.clock[0]:.6g} s, node {node}",
+            f"{source}: VFRIC at {self.clock[TOTAL_TIME]:.6g} s, node {node}",
             f"fTangential = {force[0]:g}, {force[1]:g}",
             f"finite, the first between {-pair.stick_force[contact]:g} and 0",
         )
@@ -271,19 +277,19 @@ class Simulation:
     def _sample(self, dt: float, energies: bool) -> None:
         """Keep the state of the increment just made: forces belong to its start."""
         s = self.samples
-        time = self.clock[1] - dt
+        time = self.clock[STEP_TIME] - dt
         s.time.append(max(time, 0.0) if s.time == [] else time)
         normal = np.zeros(3)
         tangential = np.zeros(3)
         touching = slipping = 0.0
         for data in self.pairs:
             pair = data.pair
-            if pair.kind[0] != 2:
+            if pair.kind[0] != USER:
                 self._areas(data)
             normal += pair.force[:, 0].sum(axis=0)
             tangential += pair.force[:, 1].sum(axis=0)
-            touching += float(pair.area[pair.slipping > 0].sum())
-            slipping += float(pair.area[pair.slipping == 2].sum())
+            touching += float(pair.area[pair.slipping > OPEN].sum())
+            slipping += float(pair.area[pair.slipping == SLIPS].sum())
         s.normal.append(normal)
         s.tangential.append(tangential)
         s.slipping.append(slipping / touching if touching > 0 else 0.0)
@@ -293,7 +299,7 @@ class Simulation:
         s.traction.append((pair.force[:, 1] * share[:, None]).astype(np.float32))
         s.slip_state.append(pair.slipping.astype(np.int8))
         s.reaction.append(self._reaction())
-        for name, nodes in self.model.steps[int(self.clock[3]) - 1].node_history.items():
+        for name, nodes in self.model.steps[int(self.clock[STEP_NUMBER]) - 1].node_history.items():
             u = self.nodes.u.reshape(-1, 3)[nodes].copy()
             s.nodes.setdefault(name, []).append((u, self.nodes.v.reshape(-1, 3)[nodes].copy()))
         if energies:
@@ -312,19 +318,23 @@ class Simulation:
         return np.asarray(total + self.bodies.reaction.sum(axis=0), dtype=np.float64)
 
     def _sample_energy(self) -> None:
-        stored, rate, hourglass, bulk = element_energies(self.elements, self.weights, self.times, self.nodes.u)
-        now = self.clock[0]
-        self.dissipated += 0.5 * (rate + self._rate) * (now - self._rate_time)
-        self._rate, self._rate_time = rate, now
+        stored, stress_work, hourglass, bulk = element_energies(self.elements, self.weights, self.nodes.u)
+        now = self.clock[TOTAL_TIME]
         kinetic = kinetic_energy(self.nodes.v, self.blocks.mass)
         if not math.isfinite(kinetic + stored):
             raise EngineError(f"the energy is no longer finite at {now:.6g} s")
-        internal = stored + self.dissipated + hourglass
-        external = self.work[0] + self.work[3]
-        total = kinetic + internal + bulk + self.work[1] - external - self.start_energy
+        # velocities live half an increment before the displacements; internal energy is taken back to them
+        lead = 0.5 * self.clock[LAST_INCREMENT] * float(self.nodes.force @ self.nodes.v)
+        stored, stress_work = stored - lead, stress_work - lead
+        internal = stress_work + hourglass
+        external, friction, impact = (float(self.work[row]) for row in (EXTERNAL, FRICTION, IMPACT))
+        total = kinetic + internal + bulk + friction + impact - external - self.start_energy
         self.samples.energy.append(
-            (self.clock[1], internal, stored, self.dissipated, hourglass, bulk, kinetic, self.work[1], external, total)
-        )
+            (
+                self.clock[STEP_TIME], internal, stored, stress_work - stored, hourglass, bulk, kinetic, friction, impact,
+                external, total,
+            )
+        )  # fmt: skip
 
 
 def simulate(model: Model, user: str | None = None, threads: int = 1, progress: Progress | None = None) -> Simulation:

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
 import numpy as np
 from numba import prange
 
 from ..kernels import kernel
 from .contact_kernel import apply_friction, coulomb, face_areas, find_contacts
 from .element_kernel import block_forces
+from .kernel_data import (
+    COULOMB,
+    EXTERNAL,
+    INCREMENT_NUMBER,
+    LAST_INCREMENT,
+    STEP_NUMBER,
+    STEP_TIME,
+    TOTAL_TIME,
+    USER,
+)
 from .step_kernel import (
     evaluate_amplitudes,
     gather_forces,
@@ -22,128 +30,6 @@ from .user_friction import call_at
 
 CHUNKS = 16  # of the element and node loops; their number does not depend on the number of threads
 OK, INVERTED, BAD_FRICTION = 0, 1, 2
-
-
-class Elements(NamedTuple):
-    """Element data of the kernel (see `block_forces`)."""
-
-    conn: Any
-    geo: Any
-    state: Any
-    hist: Any
-    decay: Any
-    gain: Any
-    elastic: Any
-    kind: Any
-    out: Any
-    work: Any
-    slots: Any
-    slot_start: Any
-
-
-class Nodes(NamedTuple):
-    """Node data; vectors are flat, x y z of each node, with one node more than the mesh for empty lanes."""
-
-    x0: Any
-    u: Any
-    v: Any
-    force: Any
-    load: Any
-    inverse_mass: Any
-
-
-class Amplitudes(NamedTuple):
-    """Every amplitude's table one after the other, and their values now."""
-
-    row: Any
-    time: Any
-    table: Any
-    area_table: Any
-    smooth: Any
-    base: Any
-    guess: Any
-    value: Any
-    area: Any
-
-
-class Prescribed(NamedTuple):
-    """Prescribed degrees of freedom: nodal ones first, then six for each rigid body."""
-
-    dof: Any
-    kind: Any
-    magnitude: Any
-    amplitude: Any
-    start: Any
-    area_start: Any
-    mass: Any
-    reaction: Any
-    before: Any
-    bodies: Any
-
-
-class Loads(NamedTuple):
-    """Concentrated forces and pressures."""
-
-    dof: Any
-    force: Any
-    force_amplitude: Any
-    faces: Any
-    pressure: Any
-    pressure_amplitude: Any
-
-
-class Bodies(NamedTuple):
-    """Rigid bodies: reference points, motion, and the nodes tied to them."""
-
-    reference: Any
-    motion: Any
-    motion_old: Any
-    turn: Any
-    turn_old: Any
-    node: Any
-    body: Any
-    arm: Any
-    mass: Any
-    reaction: Any
-
-
-class Pair(NamedTuple):
-    """A contact pair: slave nodes, master profile, friction and the arrays of its contacts."""
-
-    slaves: Any
-    held: Any
-    mass: Any
-    faces: Any
-    segments: Any
-    origin: Any
-    frame: Any
-    body: Any
-    kind: Any
-    coefficient: Any
-    address: Any
-    table: Any
-    integers: Any
-    reals: Any
-    position: Any
-    touching: Any
-    normal: Any
-    normal_force: Any
-    slip_direction: Any
-    stick_force: Any
-    arrival: Any
-    carried: Any
-    tangential: Any
-    slip: Any
-    previous: Any
-    coordinates: Any
-    master: Any
-    place: Any
-    temperature: Any
-    node_temperature: Any
-    area: Any
-    force: Any
-    slipping: Any
-    count: Any
 
 
 @kernel()
@@ -174,7 +60,15 @@ def gather_loop(chunk, chunks, elements, nodes):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs):  # type: ignore[no-untyped-def]
+def add_work_of_loads(half_sum, nodes, work):  # type: ignore[no-untyped-def]
+    """Add half of what the loads do: called with the velocities before and after the increment."""
+    for dof in range(nodes.load.size):
+        if nodes.load[dof] != 0.0:
+            work[EXTERNAL] += 0.5 * nodes.load[dof] * nodes.v[dof] * half_sum
+
+
+@kernel()
+def before_nodes(half_sum, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]
     """Loads at the start of the increment, and what the node loop will overwrite but is still needed."""
     if loads.dof.size or loads.pressure.size:
         for dof in range(nodes.load.size):
@@ -187,6 +81,7 @@ def before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs):  # type: 
         pressure_loads(
             loads.faces, loads.pressure, loads.pressure_amplitude, amplitudes.value, nodes.x0, nodes.u, nodes.load
         )
+        add_work_of_loads(half_sum, nodes, work)
     for k in range(prescribed.bodies[0]):
         prescribed.before[k] = nodes.v[prescribed.dof[k]]
     for k in range(bodies.node.size):
@@ -226,7 +121,7 @@ def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bod
         nodes.v[dof] = now
         reaction = prescribed.mass[k] * (now - before) / half_sum + nodes.force[dof] - nodes.load[dof]
         prescribed.reaction[k] = reaction
-        work[0] += reaction * 0.5 * (before + now) * half_sum
+        work[EXTERNAL] += reaction * 0.5 * (before + now) * half_sum
     for b in range(bodies.motion.shape[0]):
         rotate(
             bodies.motion[b, 3] - bodies.motion_old[b, 3],
@@ -248,7 +143,31 @@ def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bod
             nodes.v[dof] = now
             reaction = bodies.mass[k] * (now - before) / half_sum + nodes.force[dof] - nodes.load[dof]
             bodies.reaction[k, c] = reaction
-            work[0] += reaction * 0.5 * (before + now) * half_sum
+            work[EXTERNAL] += reaction * 0.5 * (before + now) * half_sum
+
+
+@kernel()
+def user_friction(pair, count, dt, total, step_time, step, increment, nodes):  # type: ignore[no-untyped-def]
+    """Call VFRIC with the contacts found."""
+    face_areas(pair.faces, pair.slaves, nodes.x0, nodes.u, pair.area)
+    for k in range(pair.slaves.size):
+        for c in range(3):
+            pair.coordinates[k, c] = nodes.x0[3 * pair.slaves[k] + c] + nodes.u[3 * pair.slaves[k] + c]
+    for i in range(count):
+        k = pair.touching[i]
+        pair.position[i] = k + 1
+        pair.temperature[i] = pair.node_temperature[k]
+        pair.tangential[i, 0] = 0.0
+        pair.tangential[i, 1] = 0.0
+    for c in range(3):
+        pair.master[0, c] = pair.place[c]
+    pair.integers[0] = step
+    pair.integers[1] = increment
+    pair.integers[2] = count
+    pair.reals[0] = step_time
+    pair.reals[1] = total
+    pair.reals[2] = dt
+    call_at(pair.address[0], pair.table)
 
 
 @kernel()
@@ -260,52 +179,17 @@ def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pair
         for c in range(3):
             pair.place[c] = bodies.reference[b, c] + bodies.motion[b, c]
             pair.place[3 + c] = bodies.reference[b, c] + bodies.motion_old[b, c]
-        for k in range(pair.slaves.size):
-            for c in range(3):
-                pair.previous[k, c] = pair.force[k, 1, c]
-        count = find_contacts(
-            pair.slaves, pair.held, pair.mass, pair.segments, pair.origin, pair.frame, pair.place, bodies.turn[b],
-            bodies.turn_old[b], half_sum, dt, nodes.x0, nodes.u, nodes.v, pair.touching, pair.normal, pair.normal_force,
-            pair.slip_direction, pair.stick_force, pair.arrival, pair.carried,
-        )  # fmt: skip
+        count = find_contacts(pair, bodies.turn[b], bodies.turn_old[b], half_sum, dt, nodes)
         pair.count[0] = count
-        if pair.kind[0] == 1:
-            coulomb(count, pair.coefficient[0], pair.normal_force, pair.stick_force, pair.tangential)
-        elif pair.kind[0] == 2 and count > 0:
-            face_areas(pair.faces, pair.slaves, nodes.x0, nodes.u, pair.area)
-            for k in range(pair.slaves.size):
-                for c in range(3):
-                    pair.coordinates[k, c] = nodes.x0[3 * pair.slaves[k] + c] + nodes.u[3 * pair.slaves[k] + c]
-            for i in range(count):
-                k = pair.touching[i]
-                pair.position[i] = k + 1
-                pair.temperature[i] = pair.node_temperature[k]
-                for c in range(3):
-                    pair.slip[i, c] = pair.arrival[k, c]
-                    pair.tangential[i, min(c, 1)] = 0.0
-            for i in range(count):
-                k = pair.touching[i]
-                for c in range(3):
-                    # touching is in increasing order and k >= i, so rows not yet moved are never overwritten
-                    pair.previous[i, c] = pair.previous[k, c]
-            for c in range(3):
-                pair.master[0, c] = pair.place[c]
-            pair.integers[0] = step
-            pair.integers[1] = increment
-            pair.integers[2] = count
-            pair.reals[0] = step_time
-            pair.reals[1] = total
-            pair.reals[2] = dt
-            call_at(pair.address[0], pair.table)
+        if pair.kind[0] == COULOMB:
+            coulomb(pair, count)
+        elif pair.kind[0] == USER and count > 0:
+            user_friction(pair, count, dt, total, step_time, step, increment, nodes)
         else:
             for i in range(count):
                 pair.tangential[i, 0] = 0.0
                 pair.tangential[i, 1] = 0.0
-        bad = apply_friction(
-            count, pair.touching, pair.slaves, pair.mass, pair.normal, pair.normal_force, pair.slip_direction,
-            pair.stick_force, pair.tangential, pair.carried, half_sum, dt, nodes.u, nodes.v, pair.force, pair.slipping,
-            work,
-        )  # fmt: skip
+        bad = apply_friction(pair, count, half_sum, dt, nodes, work)
         if bad >= 0:
             return number, bad
     return -1, -1
@@ -314,16 +198,16 @@ def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pair
 @kernel()
 def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]
     """Do everything of an increment between the node loop and the element loop; return pair and contact gone bad."""
-    clock[0] += dt
-    clock[1] += dt
-    clock[4] += 1.0
-    constrain(half_sum, dt, clock[0], clock[1], nodes, amplitudes, prescribed, bodies, work)
-    found = contact(half_sum, dt, clock[0], clock[1], int(clock[3]), int(clock[4]), nodes, bodies, pairs, work)
+    clock[TOTAL_TIME] += dt
+    clock[STEP_TIME] += dt
+    clock[INCREMENT_NUMBER] += 1.0
+    total, step_time = clock[TOTAL_TIME], clock[STEP_TIME]
+    constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bodies, work)
+    step, increment = int(clock[STEP_NUMBER]), int(clock[INCREMENT_NUMBER])
+    found = contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pairs, work)
     if loads.dof.size or loads.pressure.size:
-        for dof in range(nodes.load.size):
-            if nodes.load[dof] != 0.0:
-                work[3] += nodes.load[dof] * nodes.v[dof] * dt
-    clock[2] = dt
+        add_work_of_loads(half_sum, nodes, work)
+    clock[LAST_INCREMENT] = dt
     return found
 
 
@@ -335,14 +219,13 @@ def advance(increments, dt, clock, elements, nodes, amplitudes, prescribed, load
 
     Parameters
     ----------
-    clock : (5,) total time, step time, length of the increment before, step number, increment number
-    work : (4,) work of the constraints and of the master, frictional dissipation in row 1, work of the loads in row 3
+    clock : (CLOCK_ROWS,) and work : (WORK_SUMS,), rows named in `kernel_data`
     fault : (3,) out: kind of fault, pair or 0, contact or 0
     """
     least = np.zeros(CHUNKS)
     for _ in range(increments):
-        half_sum = 0.5 * (clock[2] + dt)
-        before_nodes(nodes, amplitudes, prescribed, loads, bodies, pairs)
+        half_sum = 0.5 * (clock[LAST_INCREMENT] + dt)
+        before_nodes(half_sum, nodes, amplitudes, prescribed, loads, bodies, pairs, work)
         for chunk in prange(CHUNKS):
             node_loop(chunk, CHUNKS, half_sum, dt, elements, nodes)
         found = finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work)

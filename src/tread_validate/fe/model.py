@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..inp import Block, Deck, read_deck
 from .amplitude import read_amplitudes
+from .kernel_data import COULOMB, NO_FRICTION, USER
 from .material import Section, read_materials, read_sections
 from .mesh import Mesh, read_mesh
 from .rigid_surface import RigidSurface
@@ -18,7 +19,6 @@ from .steps import Step, read_steps
 from .subset import check_subset
 
 Floats = NDArray[np.float64]
-NO_FRICTION, COULOMB, USER = 0, 1, 2
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from .contact_kernel import project
-from .explicit_kernel import Bodies, Pair, Prescribed
-from .model import USER, Friction, Model
+from .kernel_data import USER, Bodies, Pair, Prescribed
+from .model import Friction, Model
 from .steps import ContactPair, Step
 from .user_friction import Arguments, UserRoutine
 

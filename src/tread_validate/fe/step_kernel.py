@@ -8,6 +8,7 @@ import numpy as np
 
 from ..kernels import kernel
 from .amplitude import amplitude_at
+from .contact_kernel import nodal_normals
 from .element_kernel import LANES
 
 
@@ -79,19 +80,12 @@ def rotate(ax, ay, az, matrix):  # type: ignore[no-untyped-def]
 @kernel()
 def pressure_loads(faces, magnitude, amplitude, value, x0, u, load):  # type: ignore[no-untyped-def]
     """Add the nodal forces of pressures on faces (k, 4), which follow the deformation."""
-    d = np.zeros(3)
-    e = np.zeros(3)
+    normals = np.empty((4, 3))
     for k in range(faces.shape[0]):
         factor = magnitude[k]
         if amplitude[k] >= 0:
             factor *= value[amplitude[k]]
-        for c in range(3):
-            a0, a1 = 3 * faces[k, 0] + c, 3 * faces[k, 1] + c
-            a2, a3 = 3 * faces[k, 2] + c, 3 * faces[k, 3] + c
-            d[c] = x0[a2] + u[a2] - x0[a0] - u[a0]
-            e[c] = x0[a3] + u[a3] - x0[a1] - u[a1]
-        for c in range(3):
-            i, j = (c + 1) % 3, (c + 2) % 3
-            share = 0.125 * factor * (d[i] * e[j] - d[j] * e[i])
-            for a in range(4):
-                load[3 * faces[k, a] + c] += share
+        nodal_normals(x0, u, faces[k], normals)
+        for a in range(4):
+            for c in range(3):
+                load[3 * faces[k, a] + c] += factor * normals[a, c]
