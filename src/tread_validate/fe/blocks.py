@@ -68,7 +68,7 @@ class Blocks:
         Element index in each lane, -1 where a lane is empty.
     spectra : list of Relaxation
         One per row of the material tables (material and temperature).
-    gradients : (m, 3, 8); volume, density, shear, bulk, hourglass, bulk_linear : (m,)
+    gradients : (m, 3, 8); volume, density, shear, bulk, hourglass, bulk_linear, damping : (m,)
     mass : (n,) nodal masses
     slots, slot_start : ints
         Where in the flat force array each node gathers from: rows of `LANES`, x then y then z.
@@ -88,6 +88,7 @@ class Blocks:
     bulk: Floats
     hourglass: Floats
     bulk_linear: Floats
+    damping: Floats
     mass: Floats
     slots: NDArray[np.int32]
     slot_start: NDArray[np.int32]
@@ -111,11 +112,12 @@ class Blocks:
     def stable_increments(self, gradient_of_displacement: Floats) -> Floats:
         """Return a bound on each element's stable increment under the bulk viscosity that is set, (m,).
 
-        2 (sqrt(1 + x^2) - x)/omega; x = 4 b1 rho c L tr M/(rho omega) is the damping ratio of the dilatation.
+        2 (sqrt(1 + x^2) - x)/omega; x = 4 b1 rho c L tr M/(rho omega) + beta omega/2 is the damping ratio of the
+        dilatation, beta that of the material.
         """
         trace, largest = self._moments(gradient_of_displacement)
         omega = np.sqrt(self._frequency_squared(trace, largest))
-        ratio = 4.0 * self.bulk_linear * trace / (self.density * omega)
+        ratio = 4.0 * self.bulk_linear * trace / (self.density * omega) + 0.5 * self.damping * omega
         return np.asarray(2.0 * (np.sqrt(1.0 + ratio**2) - ratio) / omega, dtype=np.float64)
 
     def _moments(self, gradient_of_displacement: Floats | None) -> tuple[Floats, Floats]:
@@ -170,6 +172,7 @@ def pack(model: Model, duration: float) -> Blocks:
         bulk=bulk,
         hourglass=hourglass,
         bulk_linear=np.zeros(volume.size),
+        damping=np.array([model.sections[s].material.damping for s in section_of]),
         mass=np.zeros(0),
         slots=np.zeros(0, dtype=np.int32),
         slot_start=np.zeros(0, dtype=np.int32),

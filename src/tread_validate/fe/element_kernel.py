@@ -46,7 +46,8 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
     geo, state : (blocks, rows, LANES)
     hist : (blocks, terms, 6, LANES) Prony histories of strain
     decay : (kinds, terms); gain : (kinds, terms, 2) for the deviator and the volume
-    elastic : (kinds, 4): twice the shear modulus, bulk modulus (both instantaneous), long-term ratios of each
+    elastic : (kinds, 5): twice the shear modulus, bulk modulus (both instantaneous), long-term ratios of each, and the
+        time by which the strain rate adds to the strain (stiffness-proportional damping)
     kind : (blocks,) int32, row of the material tables
     out : (blocks, 24, LANES) internal forces, rows 3 a + component
     work : (WORK_ROWS * LANES,) working set
@@ -272,12 +273,13 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
         same = True
         for t in range(terms):
             same = same and gain[k, t, 0] == gain[k, t, 1]
+        damp = elastic[k, 4] / dt
         for c in range(6):
             ratio = elastic[k, 2] if c < 5 else elastic[k, 3]
             for i in range(n):
                 e = w[(_T + STATE_STRAIN + c) * n + i] + w[(_D + c) * n + i]
                 w[(_T + STATE_STRAIN + c) * n + i] = e
-                w[(_S + c) * n + i] = ratio * e
+                w[(_S + c) * n + i] = ratio * e + damp * w[(_D + c) * n + i]
         t = 0
         while t + 4 <= terms and same:
             # four terms at a time: the strain increment and the sum pass through memory once. Histories are taken as

@@ -133,7 +133,7 @@ class Simulation:
     def _elements(self) -> Elements:
         b = self.blocks
         kinds = len(b.spectra)
-        elastic = np.array([[2.0 * s.shear, s.bulk, s.long_term[0], s.long_term[1]] for s in b.spectra])
+        elastic = np.array([[2.0 * s.shear, s.bulk, s.long_term[0], s.long_term[1], s.damping] for s in b.spectra])
         self.weights = np.zeros((kinds, b.terms, 2))
         self.times = np.ones((kinds, b.terms))
         for row, spectrum in enumerate(b.spectra):
@@ -331,8 +331,8 @@ class Simulation:
         total = kinetic + internal + bulk + friction + impact - external - self.start_energy
         self.samples.energy.append(
             (
-                self.clock[STEP_TIME], internal, stored, stress_work - stored, hourglass, bulk, kinetic, friction, impact,
-                external, total,
+                self.clock[STEP_TIME], internal, stored, stress_work - stored, hourglass, bulk, kinetic, friction,
+                impact, external, total,
             )
         )  # fmt: skip
 

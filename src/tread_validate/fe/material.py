@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -26,6 +27,8 @@ class Material:
     prony : (k, 3)
         Rows g, k, tau: ratios to the instantaneous shear and bulk modulus, and the relaxation time.
     trs : (theta0, C1, C2) or None
+    damping : float
+        Stiffness-proportional damping, s: adds a stress of this time, times instantaneous stiffness, times strain rate.
     """
 
     name: str
@@ -36,6 +39,7 @@ class Material:
     instantaneous: bool = False
     prony: Floats = field(default_factory=lambda: np.zeros((0, 3)))
     trs: tuple[float, float, float] | None = None
+    damping: float = 0.0
 
     def shear_and_bulk(self) -> tuple[float, float]:
         """Return the instantaneous shear and bulk modulus."""
@@ -80,7 +84,7 @@ class Section:
 
 
 def read_materials(blocks: list[Block]) -> dict[str, Material]:
-    """Read every material with its DENSITY, ELASTIC, VISCOELASTIC and TRS."""
+    """Read every material with its DENSITY, ELASTIC, VISCOELASTIC, TRS and DAMPING."""
     materials: dict[str, Material] = {}
     current: Material | None = None
     for block in blocks:
@@ -89,7 +93,7 @@ def read_materials(blocks: list[Block]) -> dict[str, Material]:
             if name in materials:
                 raise InputError(block.where, f"material {name} twice", "each material once")
             current = materials[name] = Material(name, block.where)
-        elif block.keyword in ("DENSITY", "ELASTIC", "VISCOELASTIC", "TRS"):
+        elif block.keyword in ("DENSITY", "ELASTIC", "VISCOELASTIC", "TRS", "DAMPING"):
             if current is None:
                 raise InputError(block.where, f"*{block.keyword} before any *MATERIAL", "*MATERIAL first")
             _property(block, current)
@@ -103,6 +107,18 @@ def _only(block: Block, fields: int) -> DataLine:
     if len(block.data) != 1 or len(block.data[0].fields) > fields:
         raise InputError(block.where, "a table" if block.data else "no data", f"one line of {fields} value(s)")
     return block.data[0]
+
+
+def _factor(block: Block, name: str) -> float:
+    """Return a parameter that is a finite number of at least 0."""
+    text = block.value(name)
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 <= value < math.inf:
+        raise InputError(f"{block.where}: *{block.keyword}, {name}", text, "a number of 0 or more")
+    return value
 
 
 def _property(block: Block, material: Material) -> None:
@@ -125,6 +141,10 @@ def _property(block: Block, material: Material) -> None:
         if not rows:
             raise InputError(block.where, "no terms", "lines g, k, tau")
         material.prony = np.array(rows)
+    elif block.keyword == "DAMPING":
+        if block.data:
+            raise InputError(block.where, "data lines", "*DAMPING, BETA=...")
+        material.damping = _factor(block, "BETA")
     else:
         line = _only(block, 3)
         material.trs = (line.number_at(0, "theta0"), line.number_at(1, "C1"), line.number_at(2, "C2"))

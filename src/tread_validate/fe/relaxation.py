@@ -35,6 +35,8 @@ class Relaxation:
         Weights of the terms; each column with `long_term` sums to 1.
     times : (n,)
         Relaxation times at this temperature.
+    damping : float
+        Stiffness-proportional damping, s.
     """
 
     shear: float
@@ -42,6 +44,7 @@ class Relaxation:
     long_term: Floats
     weights: Floats
     times: Floats
+    damping: float = 0.0
 
     def modulus(self, time: Floats) -> Floats:
         """Return the normalised shear relaxation modulus at `time`, shape of `time`."""
@@ -70,7 +73,7 @@ def relaxation_of(material: Material, temperature: float, duration: float) -> Re
     long_term = 1.0 - weights.sum(axis=0)
     if times.size and np.array_equal(weights[:, 0], weights[:, 1]):
         weights, times, long_term = _merge_slow(weights[:, 0], times, float(long_term[0]), duration)
-    return Relaxation(shear, bulk, long_term, weights, times)
+    return Relaxation(shear, bulk, long_term, weights, times, material.damping)
 
 
 def _merge_slow(weights: Floats, times: Floats, long_term: float, duration: float) -> tuple[Floats, Floats, Floats]:

@@ -48,6 +48,7 @@ SUBSET: dict[str, Keyword] = {
     "ELASTIC": Keyword("model", {"TYPE": ("ISOTROPIC",), "MODULI": ("INSTANTANEOUS", "LONG TERM")}),
     "VISCOELASTIC": Keyword("model", {"TIME": ("PRONY",)}, ("TIME",)),
     "TRS": Keyword("model", {"DEFINITION": ("WLF",)}),
+    "DAMPING": Keyword("model", {"BETA": ANY}, ("BETA",)),
     "SOLID SECTION": Keyword("model", {"ELSET": ANY, "MATERIAL": ANY, "CONTROLS": ANY}, ("ELSET", "MATERIAL")),
     "SECTION CONTROLS": Keyword("model", {"NAME": ANY, "HOURGLASS": ("STIFFNESS", "RELAX STIFFNESS")}, ("NAME",)),
     "RIGID BODY": Keyword(
