@@ -20,6 +20,7 @@ __version__ = "0.1.0"
 # the front door: each name loads its part of the package when it is first used, so that `import` itself is quick
 _DOOR = {
     "History": "history",
+    "TreadBlock": "spring.stepping",
     "compare": "api",
     "load_study": "api",
     "run": "api",

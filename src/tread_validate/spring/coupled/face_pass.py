@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from ...geometry import path_of
 from ...study import Case
 from .roll import CoupledSettings, FacePass, roll
+from .stepping import FaceBlock
 
 Array = NDArray[np.float64]
 
@@ -59,3 +60,13 @@ def prepare_coupled(case: Case, settings: CoupledSettings | None = None) -> Coup
 def prepare_coarse(case: Case) -> CoupledPass:
     """Return the case ready to run on the 2 mm face of `COARSE`."""
     return prepare_coupled(case, COARSE)
+
+
+def block_of(case: Case) -> FaceBlock:
+    """Return the case's block as a state that a host advances."""
+    return FaceBlock(case, CoupledSettings())
+
+
+def coarse_block_of(case: Case) -> FaceBlock:
+    """Return the same with a coarse face."""
+    return FaceBlock(case, COARSE)

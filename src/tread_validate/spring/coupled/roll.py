@@ -20,7 +20,7 @@ from .march import Course, Record, march, pose_at
 from .motion import free_shape, motion
 from .operators import FaceOperators
 from .step import start
-from .store import ready
+from .store import ReadyFace, ready
 
 Array = NDArray[np.float64]
 
@@ -123,22 +123,34 @@ def roll(
     if case.creep_ratio is None:
         raise InputError(f"case {case.case_id}: creep ratio", "none yet", "a resolved free-rolling case")
     path = path_of(case)
-    shape = free_shape(path, case.block)
-    division = settings.body or fitted(case.block, settings.density, settings.layers)
-    face = ready(case.block, shape, division, case.compound.poissons_ratio, settings.mesh_correction)
-    series, friction = series or series_of(case), friction or law_of(case)
+    face, scene, division = scene_of(case, path, settings, series, friction)
+    scene = scene._replace(road=RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio)))
     time = step_times(path, division.face_size, settings)
-    moves = motion(path, shape, face.body, face.follow, case.height, time)
-    stretch = face.stretch if settings.finite_strain else np.zeros(2)
-    solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times, stretch)
-    road = RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio))
-    grip = Grip(friction.static_coefficient, *friction.kernel_arguments)
-    scene = Scene(face.operators.nodes, solid, road, grip, Solver(settings.tolerance, settings.most_sweeps))
+    moves = motion(path, face.shape, face.body, face.follow, case.height, time)
     known = face.operators.count
     record = run_course(moves, scene, face.operators)
     if face.operators.count > known:
         face.remember()
     return FacePass(face.body, time, *record)
+
+
+def scene_of(
+    case: Case,
+    path: Path,
+    settings: CoupledSettings,
+    series: PronySeries | None = None,
+    friction: FrictionLaw | None = None,
+) -> tuple[ReadyFace, Scene, BodySettings]:
+    """Return the case's face, what stays the same over its pass (the road at rest), and its division."""
+    division = settings.body or fitted(case.block, settings.density, settings.layers)
+    shape = free_shape(path, case.block)
+    face = ready(case.block, shape, division, case.compound.poissons_ratio, settings.mesh_correction)
+    series, friction = series or series_of(case), friction or law_of(case)
+    stretch = face.stretch if settings.finite_strain else np.zeros(2)
+    solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times, stretch)
+    grip = Grip(friction.static_coefficient, *friction.kernel_arguments)
+    solver = Solver(settings.tolerance, settings.most_sweeps)
+    return face, Scene(face.operators.nodes, solid, RoadMotion(path.road.radius, 0.0), grip, solver), division
 
 
 def run_course(moves: Course, scene: Scene, parts: FaceOperators) -> Record:

@@ -40,6 +40,7 @@ class ReadyFace:
 
     Attributes
     ----------
+    shape : FreeShape
     body : Body
     follow : (3 n, 2 k) array
         What the unloaded face does with the mount, as in `FaceStiffness`.
@@ -50,6 +51,7 @@ class ReadyFace:
         What the block is kept under.
     """
 
+    shape: FreeShape
     body: Body
     follow: Array
     stretch: Array
@@ -108,7 +110,7 @@ def ready(
     found = load("windows", key)
     if found is not None:
         operators.learn(found["offset"], found["pool"])
-    return ReadyFace(body, arrays["follow"], arrays["stretch"], operators, key)
+    return ReadyFace(shape, body, arrays["follow"], arrays["stretch"], operators, key)
 
 
 @lru_cache(maxsize=32)
