@@ -238,7 +238,8 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "error_type": "score",
                     "passed": "",
                     "verdict": "cannot tell",
-                    "note": "good" if there else "",
+                    "note": "",
+                    "grade": "good" if there else "",
                 }
             )
     return pd.DataFrame(rows)

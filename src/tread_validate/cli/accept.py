@@ -28,5 +28,5 @@ def command(
 
     made = accept(tables, baseline, reason, who=who, allow_dirty=allow_dirty, allow_stale=allow_stale)
     facts = made.acceptance
-    typer.echo(f"{len(made.rows)} rows accepted in {baseline}: {facts.reason}")
+    typer.echo(f"{made.rows} rows accepted in {baseline}: {facts.reason}")
     typer.echo(f"by {facts.who}, {facts.when}, code {facts.commit}")

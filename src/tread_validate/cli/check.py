@@ -16,29 +16,33 @@ def command(
     ] = None,
     junit: Annotated[Path | None, typer.Option("--junit", help="also write JUnit XML")] = None,
     markdown: Annotated[Path | None, typer.Option("--markdown", help="also write a Markdown page")] = None,
+    page: Annotated[str, typer.Option("--page", help="address of the report, for links in the Markdown")] = "",
     report_only: Annotated[bool, typer.Option("--report-only", help="end with 0 even where rows fail")] = False,
 ) -> None:
-    """Compare the tables with the baseline, row by row and two-sided; ends with 1 where a row fails.
+    """Compare the tables with the baseline, cell by cell and two-sided; ends with 1 where one fails.
+
+    Flipped verdicts come first, then what they rest on, then what moved, then what follows from that.
 
     Example: tread-validate check results/tables --junit check.xml --markdown check.md
     """
-    from ..compare.baseline.delta import deltas
+    from ..compare.baseline.delta import check_tables
+    from ..compare.baseline.movement import movements
     from ..compare.baseline.output import delta_csv, delta_junit, delta_lines, delta_markdown, summary
-    from ..compare.baseline.rows import rows_of_tables
     from ..compare.baseline.store import load_baseline, same_study
     from ..errors import CheckFailedError
     from ..files import write_text
 
     accepted = load_baseline(baseline)
     same_study(accepted, tables)
-    rows = deltas(accepted.rows, rows_of_tables(tables))
-    write_text(output or tables / "delta.csv", delta_csv(rows))
+    found = check_tables(accepted, tables)
+    write_text(output or tables / "delta.csv", delta_csv(found))
     if junit is not None:
-        write_text(junit, delta_junit(rows))
+        sources = dict.fromkeys(row["source"] for row in accepted.tables["peaks"])
+        write_text(junit, delta_junit(found, [("peaks", source) for source in sources]))
     if markdown is not None:
-        write_text(markdown, delta_markdown(rows, accepted.acceptance))
-    for line in delta_lines(rows):
+        write_text(markdown, delta_markdown(found, accepted.acceptance, movements(accepted, tables), page))
+    for line in delta_lines(found):
         typer.echo(line)
-    if not report_only and any(not row.passed for row in rows):
-        raise CheckFailedError(summary(rows))
-    typer.echo(summary(rows))
+    if not report_only and found.failed:
+        raise CheckFailedError(summary(found))
+    typer.echo(summary(found))

@@ -6,13 +6,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from ..compare.quantities import HEADLINE
 from ..compare.tables import MetricRow
 from . import wording
 from .cases import CaseView, Facet, facets
 from .content import Widget
 from .marks import Marks
 from .palette import Look
-from .results import HEADLINE
 from .tables import Tables, pair_of, pairs_of
 
 SCATTER = (

@@ -4,25 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ..compare.quantities import HEADLINE
 from ..compare.tables import ClaimRow, Ensemble, MetricRow
 from . import wording
 from .content import Cell, Column, Row, Table, Tone
 from .marks import Marks
 from .tables import Tables, pair_of
-
-HEADLINE = (
-    ("peak_normal_force", "scalar"),
-    ("peak_positive_tangential_force", "scalar"),
-    ("peak_negative_tangential_force", "scalar"),
-    ("normal_impulse", "scalar"),
-    ("contact_duration", "scalar"),
-    ("normal_force", "relative_rms"),
-    ("tangential_force", "relative_rms"),
-    ("normal_force", "sprague_geers_c"),
-    ("tangential_force", "sprague_geers_c"),
-    ("normal_force", "iso18571_r"),
-    ("tangential_force", "iso18571_r"),
-)
 
 
 def value_cell(value: float | None, text: str, note: str = "", tone: Tone = "") -> Cell:

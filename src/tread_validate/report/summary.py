@@ -121,7 +121,7 @@ def _size(row: Ensemble) -> str:
 def _grades(errors: list[MetricRow]) -> str:
     text = ""
     for quantity, name in (("normal_force", "normal"), ("tangential_force", "tangential")):
-        grades = [row.note for row in errors if (row.quantity, row.metric) == (quantity, "iso18571_r")]
+        grades = [row.grade for row in errors if (row.quantity, row.metric) == (quantity, "iso18571_r")]
         found = [f"{grades.count(g)} {g}" for g in ("excellent", "good", "fair", "poor") if g in grades]
         if found:
             text += f" ISO/TS 18571, {name}: {', '.join(found)}."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import subprocess
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -13,120 +14,207 @@ import yaml
 
 from tread_validate.cli.app import run as tread_validate
 from tread_validate.compare.baseline.accept import accept
-from tread_validate.compare.baseline.delta import deltas
+from tread_validate.compare.baseline.delta import Check, check_tables
+from tread_validate.compare.baseline.movement import movements
 from tread_validate.compare.baseline.output import delta_csv, delta_junit, delta_markdown, summary
-from tread_validate.compare.baseline.rows import BaselineRow, rows_of_tables
-from tread_validate.compare.baseline.store import Acceptance, Baseline, load_baseline, save_baseline
+from tread_validate.compare.baseline.store import Acceptance, load_baseline, save_baseline
+from tread_validate.compare.baseline.trend import read_trend
+from tread_validate.compare.tables import Delta, MetricRow, PeakRow, Row, read_rows, write_rows
 from tread_validate.errors import InputError
 
-ROW = BaselineRow(
-    "scalar", "spring:paper", "", "case-a", "peak_normal_force", "scalar", "N", 100.0, "", "current", 0.001
-)  # fmt: skip
-FACTS = Acceptance("a test", "somebody", "2026-01-01T00:00:00Z", "0123456789ab", "0.1.0", "study", "digest")
+FACTS = Acceptance("a test", "somebody", "2026-01-01T00:00:00Z", "0123456789ab", "0.1.0", "liu2010", "digest")
+CASE = "rig-rectangle-22c-0p1mm-150rpm"
 
 
-@pytest.mark.parametrize("change", [-0.0015, 0.0015])
-def test_a_move_beyond_tolerance_fails_in_either_direction(change: float) -> None:
-    """Tolerance 0.001 N, change -+0.0015 N: 1.5 times out, both ways."""
-    (found,) = deltas([ROW], [replace(ROW, value=100.0 + change)])
-    assert (found.outcome, found.passed) == ("moved", False)
-    assert found.times_tolerance == pytest.approx(1.5, rel=1e-6)
+@pytest.fixture
+def baseline(workspace: Any, tmp_path: Path) -> Path:
+    """The workspace's tables as a baseline."""
+    save_baseline(tmp_path / "baseline", workspace.tables, FACTS)
+    return tmp_path / "baseline"
 
 
-@pytest.mark.parametrize("change", [-0.0009, 0.0, 0.0009])
-def test_a_move_within_tolerance_passes(change: float) -> None:
-    """Below 0.001 N: within."""
-    (found,) = deltas([ROW], [replace(ROW, value=100.0 + change)])
-    assert found.passed
+def changed(folder: Path, kind: type[Row], which: dict[str, Any], **values: Any) -> int:
+    """Change columns of the rows of a table that have the given values; return how many rows it were."""
+    rows, count = [], 0
+    for row in read_rows(folder / f"{kind.table}.csv", kind):
+        if all(getattr(row, name) == value for name, value in which.items()):
+            row, count = replace(row, **values), count + 1
+        rows.append(row)
+    assert count
+    write_rows(folder, kind, rows)
+    return count
 
 
-def test_new_missing_and_stale_rows_fail() -> None:
-    """A row on one side only, a value that is gone, a status that is stale or corrupt: all failures."""
-    other = replace(ROW, case_id="case-b")
-    outcomes = {row.case_id: row.outcome for row in deltas([ROW], [other])}
-    assert outcomes == {"case-a": "missing", "case-b": "new"}
-    gone = replace(ROW, value=None, status="missing")
-    assert deltas([ROW], [gone])[0].outcome == "missing"
-    assert deltas([gone], [ROW])[0].outcome == "new"
-    for status in ("stale", "corrupt"):
-        stale = replace(ROW, value=None, status=status)
-        assert deltas([ROW], [stale])[0].outcome == "stale"
-        assert deltas([stale], [stale])[0].outcome == "stale"
+def peak(folder: Path) -> PeakRow:
+    """Return the spring run of one case."""
+    rows = read_rows(folder / "peaks.csv", PeakRow)
+    return next(row for row in rows if (row.source, row.case_id) == ("spring:paper", CASE))
 
 
-def test_a_row_that_is_missing_on_both_sides_is_unchanged() -> None:
-    """A reference that was not there when the baseline was accepted and still is not: no change."""
-    gone = replace(ROW, value=None, status="missing")
-    assert deltas([gone], [gone])[0].passed
+def moved(copy: Any, baseline: Path, newtons: float) -> Check:
+    """Move one peak normal force and check."""
+    row = peak(copy.tables)
+    force = row.values["peak_normal_force"]
+    assert force is not None
+    values = {**row.values, "peak_normal_force": force + newtons}
+    changed(copy.tables, PeakRow, {"source": "spring:paper", "case_id": CASE}, values=values)
+    return check_tables(load_baseline(baseline), copy.tables)
 
 
-def test_another_verdict_or_other_inputs_fail() -> None:
-    """Words must not change at all."""
-    claim = replace(ROW, kind="claim", text="agrees")
-    assert deltas([claim], [replace(claim, text="disagrees")])[0].outcome == "changed"
-    inputs = replace(ROW, kind="case", value=None, text="a" * 64, tolerance=0.0)
-    assert deltas([inputs], [replace(inputs, text="b" * 64)])[0].note == "the case has other inputs"
+@pytest.mark.parametrize(("newtons", "passes"), [(-1e-3, False), (1e-3, False), (-1e-4, True), (1e-4, True)])
+def test_a_move_beyond_noise_fails_in_either_direction(newtons: float, passes: bool, copy: Any, baseline: Path) -> None:
+    """A peak of 31 N may move by 5e-6 of itself and 5e-5 N, 2.07e-4 N: 1e-3 N is 4.8 times that, 1e-4 N is half."""
+    check = moved(copy, baseline, newtons)
+    (found,) = check.deltas
+    assert (found.kind, found.outcome, found.passed) == ("run", "within" if passes else "moved", passes)
+    assert found.times_noise == pytest.approx(abs(newtons) / 2.07e-4, rel=0.05)
+    assert found.unit == "N"
 
 
-def test_the_furthest_out_comes_first() -> None:
-    """Sorted by failure, then by how many tolerances a row has moved."""
-    rows = [replace(ROW, case_id=f"case-{i}") for i in range(4)]
-    moved = [replace(row, value=100.0 + step) for row, step in zip(rows, (0.0005, 0.002, 0.1, -0.01), strict=True)]
-    assert [row.case_id for row in deltas(rows, moved)] == ["case-2", "case-3", "case-1", "case-0"]
+def test_no_change_is_no_change(workspace: Any, baseline: Path) -> None:
+    """The accepted tables against themselves: nothing at all differs, and every row of eleven tables was looked at."""
+    check = check_tables(load_baseline(baseline), workspace.tables)
+    assert check.deltas == ()
+    lines = sum(len(path.read_text(encoding="utf-8").splitlines()) - 1 for path in workspace.tables.glob("*.csv"))
+    assert check.rows == pytest.approx(lines, abs=40)  # statements and sources with line breaks apart
+    assert summary(check) == f"{check.rows} rows, all within noise of the baseline (0 numbers moved at all)"
 
 
-def test_the_delta_is_written_for_people_and_for_ci_systems() -> None:
-    """CSV holds what moved; JUnit counts failures and stays XML whatever the names hold; Markdown escapes."""
-    odd = replace(ROW, case_id="a|b<script>\x01&")
-    rows = deltas([ROW, odd], [ROW, replace(odd, value=101.0)])
-    assert delta_csv(rows).count("\n") == 2
-    assert summary(rows) == "1 of 2 rows fail: 1 moved"
-    root = ET.fromstring(delta_junit(rows).split("\n", 1)[1])
-    assert (root.get("tests"), root.get("failures")) == ("2", "1")
-    assert len(root.findall(".//failure")) == 1
-    page = delta_markdown(rows, FACTS)
+def test_new_missing_and_stale_rows_fail(copy: Any, baseline: Path) -> None:
+    """A row on one side only, a value that is gone, a run that is stale: all failures, each by its name."""
+    rows = list(read_rows(copy.tables / "peaks.csv", PeakRow))
+    gone = rows.pop(0)
+    rows[0] = replace(rows[0], status="stale")
+    rows[1] = replace(rows[1], values={**rows[1].values, "normal_impulse": None})
+    rows.append(replace(rows[2], case_id="another"))
+    write_rows(copy.tables, PeakRow, rows)
+    found = {(row.case_id, row.outcome) for row in check_tables(load_baseline(baseline), copy.tables).failed}
+    assert found == {
+        (gone.case_id, "missing"),
+        (rows[0].case_id, "stale"),
+        (rows[1].case_id, "missing"),
+        ("another", "new"),
+    }
+
+
+def test_flips_come_first_then_rules_then_moves_then_what_follows(copy: Any, baseline: Path) -> None:
+    """One flipped verdict, one changed tolerance, one moved peak, one moved error: in this order, however far out."""
+    changed(copy.tables, MetricRow, {"case_id": CASE, "quantity": "contact_duration"}, error=0.5)
+    key = {"case_id": CASE, "quantity": "peak_normal_force", "reference_source": "fe:embedded"}
+    changed(copy.tables, MetricRow, key, verdict="agrees")
+    changed(copy.tables, MetricRow, {"case_id": CASE, "quantity": "normal_impulse"}, tolerance=0.2)
+    check = moved(copy, baseline, 1e-3)
+    assert [row.kind for row in check.failed] == ["flip", "rule", "run", "consequence"]
+    assert len(check.flips) == 1
+    assert summary(check).startswith("1 verdicts flipped; 4 of")
+
+
+def test_the_change_is_written_for_people_and_for_ci_systems(copy: Any, baseline: Path) -> None:
+    """Markdown of a screen, however much moved, that links the worst case; JUnit whose names do not change."""
+    rows = read_rows(copy.tables / "errors.csv", MetricRow)
+    spoilt = [
+        replace(row, error=row.error * 1.5, verdict="cannot tell") if row.error is not None else row for row in rows
+    ]
+    write_rows(copy.tables, MetricRow, spoilt)
+    accepted = load_baseline(baseline)
+    check = check_tables(accepted, copy.tables)
+    page = delta_markdown(check, accepted.acceptance, movements(accepted, copy.tables), "index.html")
+    assert len(page.splitlines()) <= 60
+    assert page.index("verdict of") < page.index("better") < page.index("times noise")
+    assert "](index.html#case=" in page
+    assert "| 0 | 28 |" in page
+    root = ET.fromstring(delta_junit(check, [("peaks", "spring:paper")]).split("\n", 1)[1])
+    assert [suite.get("name") for suite in root] == ["verdicts", "numbers"]
+    assert (root.get("tests"), root.get("failures")) == ("4", "2")
+    assert delta_csv(check).count("\n") == len(check.deltas) + 1
+
+
+def test_names_cannot_break_the_page_or_the_xml(copy: Any, baseline: Path) -> None:
+    """Markup, a control character and a pipe in a case's name: escaped in Markdown, legal in XML."""
+    changed(copy.tables, PeakRow, {"source": "spring:paper", "case_id": CASE}, case_id="a|b<script>\x01&")
+    accepted = load_baseline(baseline)
+    check = check_tables(accepted, copy.tables)
+    page = delta_markdown(check, accepted.acceptance, ())
     assert "a\\|b\\<script\\>" in page
     assert "<script>" not in page
+    ET.fromstring(delta_junit(check, []).split("\n", 1)[1])
 
 
-def test_a_baseline_comes_back_as_it_was_saved(tmp_path: Path) -> None:
-    """Rows and record round-trip."""
-    save_baseline(tmp_path, Baseline((ROW, replace(ROW, case_id="case-b", value=None)), FACTS))
-    loaded = load_baseline(tmp_path)
+def test_a_baseline_comes_back_as_it_was_saved(workspace: Any, baseline: Path) -> None:
+    """Tables and record round-trip, the tables byte for byte."""
+    loaded = load_baseline(baseline)
     assert loaded.acceptance == FACTS
-    assert loaded.rows == (ROW, replace(ROW, case_id="case-b", value=None))
+    for name, rows in loaded.tables.items():
+        assert (baseline / f"{name}.csv").read_bytes() == (workspace.tables / f"{name}.csv").read_bytes()
+        assert rows
+    assert loaded.rows == sum(map(len, loaded.tables.values()))
 
 
-def test_a_baseline_that_is_not_whole_is_refused(tmp_path: Path) -> None:
-    """None at all, another schema version, empty, edited by hand, without a reason: one line each."""
+def test_a_baseline_that_is_not_whole_is_refused(baseline: Path, tmp_path: Path) -> None:
+    """None at all, another schema version, a table edited, cut or gone, no reason: one line each."""
     with pytest.raises(InputError, match="accept"):
-        load_baseline(tmp_path)
-    with pytest.raises(InputError, match="no rows"):
-        save_baseline(tmp_path, Baseline((), FACTS))
-    save_baseline(tmp_path, Baseline((ROW,), FACTS))
-    record = yaml.safe_load((tmp_path / "baseline.yaml").read_text(encoding="utf-8"))
-    rows = (tmp_path / "rows.csv").read_text(encoding="utf-8")
+        load_baseline(tmp_path / "nothing")
+    record = yaml.safe_load((baseline / "baseline.yaml").read_text(encoding="utf-8"))
+    peaks = (baseline / "peaks.csv").read_text(encoding="utf-8")
 
-    def refused(match: str, changes: dict[str, Any], text: str = rows) -> None:
+    def refused(match: str, changes: dict[str, Any], text: str = peaks) -> None:
         kept = {key: value for key, value in {**record, **changes}.items() if value is not ...}
-        (tmp_path / "baseline.yaml").write_text(yaml.safe_dump(kept), encoding="utf-8")
-        (tmp_path / "rows.csv").write_text(text, encoding="utf-8")
+        (baseline / "baseline.yaml").write_text(yaml.safe_dump(kept), encoding="utf-8")
+        (baseline / "peaks.csv").write_text(text, encoding="utf-8")
         with pytest.raises(InputError, match=match):
-            load_baseline(tmp_path)
+            load_baseline(baseline)
 
-    refused("schema_version: got 2, expected 1", {"schema_version": 2})
+    refused("schema_version: got 1, expected 2; accept", {"schema_version": 1})
     refused("reason", {"reason": ...})
-    refused("checksum", {}, rows.replace("100", "101"))
-    header = rows.splitlines()[0] + "\n"
-    import hashlib
+    refused("checksum", {}, peaks.replace("31.45", "32.45"))
+    header = peaks.splitlines()[0] + "\n"
+    facts = {"rows": 0, "sha256": hashlib.sha256(header.encode()).hexdigest()}
+    refused("no accepted runs", {"tables": {**record["tables"], "peaks": facts}}, header)
+    refused("0 rows", {"tables": {**record["tables"], "peaks": {**facts, "rows": 56}}}, header)
+    (baseline / "peaks.csv").unlink()
+    with pytest.raises(InputError, match=r"peaks\.csv: got no such file"):
+        load_baseline(baseline)
 
-    refused("header only", {"rows_sha256": hashlib.sha256(header.encode()).hexdigest()}, header)
+
+@pytest.mark.parametrize("noise", [[1e9, 0.0], [0.0, 1e9], [5e-6, 1e-3], [float("nan"), 0.0], [-1.0, 0.0], "wide"])
+def test_a_noise_that_would_hide_a_change_is_refused_even_in_a_whole_record(noise: Any, baseline: Path) -> None:
+    """Every digest is right; the accepted noise of a peak force is not that of any processor."""
+    path = baseline / "baseline.yaml"
+    record = yaml.safe_load(path.read_text(encoding="utf-8"))
+    record["noise"]["peak_normal_force"] = noise
+    path.write_text(yaml.safe_dump(record), encoding="utf-8")
+    with pytest.raises(InputError, match=r"noise\.peak_normal_force"):
+        load_baseline(baseline)
 
 
-def test_accept_needs_a_reason_a_clean_tree_and_current_rows(
-    workspace: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_another_noise_of_the_code_is_a_change_of_rule(workspace: Any, baseline: Path) -> None:
+    """A baseline that was accepted under half the noise says so."""
+    path = baseline / "baseline.yaml"
+    record = yaml.safe_load(path.read_text(encoding="utf-8"))
+    record["noise"]["peak_normal_force"] = [2.5e-6, 5e-5]
+    path.write_text(yaml.safe_dump(record), encoding="utf-8")
+    (found,) = check_tables(load_baseline(baseline), workspace.tables).failed
+    assert (found.kind, found.quantity, found.in_column) == ("rule", "peak_normal_force", "noise")
+
+
+def test_a_column_that_the_baseline_lacks_is_said_once(workspace: Any, baseline: Path) -> None:
+    """A table of an older form is compared in what both have."""
+    path = baseline / "sensitivity.csv"
+    lines = [line.rsplit(",", 1)[0] for line in path.read_text(encoding="utf-8").splitlines()]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    record = yaml.safe_load((baseline / "baseline.yaml").read_text(encoding="utf-8"))
+    record["tables"]["sensitivity"]["sha256"] = hashlib.sha256(path.read_bytes()).hexdigest()
+    (baseline / "baseline.yaml").write_text(yaml.safe_dump(record), encoding="utf-8")
+    (found,) = check_tables(load_baseline(baseline), workspace.tables).failed
+    assert (found.outcome, found.in_table, found.in_column) == ("new", "sensitivity", "change")
+
+
+def test_accept_needs_a_reason_a_clean_tree_and_current_runs(
+    workspace: Any, copy: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A short reason, a dirty tree, tables of another commit, no repository: refused; told so: accepted."""
+    """A short reason, a dirty tree, tables of another commit, no repository, a stale run: refused; told so: accepted,
+    and a second time the trend has grown by as many rows and kept the first ones.
+    """
     repository = tmp_path / "repository"
     repository.mkdir()
     monkeypatch.chdir(repository)
@@ -151,59 +239,56 @@ def test_accept_needs_a_reason_a_clean_tree_and_current_rows(
     made = accept(workspace.tables, repository / "baseline", "a good reason", allow_dirty=True, who="Tester")
     assert (made.acceptance.reason, made.acceptance.who) == ("a good reason", "Tester")
     assert made.acceptance.when.endswith("Z")
-    assert load_baseline(repository / "baseline").rows == made.rows
+    assert load_baseline(repository / "baseline").tables == made.tables
+    first = read_trend(repository / "baseline")
+    again = accept(workspace.tables, repository / "baseline", "another reason", allow_dirty=True, when="2027-01-01")
+    assert again.rows == made.rows
+    both = read_trend(repository / "baseline")
+    assert both[: len(first)] == first
+    assert len(both) == 2 * len(first) > 0
     git("commit", "-q", "-a", "-m", "change")
     monkeypatch.setattr("tread_validate.compare.baseline.accept.commit", lambda: "feedfeedfeed")
     with pytest.raises(InputError, match="expected feedfeedfeed"):
         accept(workspace.tables, repository / "baseline", "a good reason")
+    changed(copy.tables, PeakRow, {"source": "fe:embedded", "case_id": CASE}, status="stale")
+    with pytest.raises(InputError, match=rf"fe:embedded, {CASE}: got stale"):
+        accept(copy.tables, repository / "baseline", "a good reason", allow_dirty=True)
 
 
-def test_check_ends_with_one_where_a_row_moved(workspace: Any, copy: Any, capsys: pytest.CaptureFixture[str]) -> None:
-    """Exit codes 0 and 1 through the command line; the delta table names the row; --report-only ends with 0."""
-    baseline = copy.folder / "baseline"
-    accept(workspace.tables, baseline, "a good reason", allow_dirty=True)
+def test_check_ends_with_one_where_a_cell_moved(copy: Any, baseline: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Exit codes 0 and 1 through the command line; the delta table names the cell; --report-only ends with 0."""
     arguments = ["check", str(copy.tables), "--baseline", str(baseline)]
     assert tread_validate(arguments) == 0
-    peaks = copy.tables / "peaks.csv"
-    line = next(line for line in peaks.read_text(encoding="utf-8").splitlines() if line.startswith("spring:paper"))
-    cells = line.split(",")
-    cells[9] = f"{float(cells[9]) * 0.99:.7g}"
-    peaks.write_text(peaks.read_text(encoding="utf-8").replace(line, ",".join(cells)), encoding="utf-8")
+    moved(copy, baseline, 1.0)
     junit = copy.folder / "check.xml"
-    assert tread_validate([*arguments, "--junit", str(junit)]) == 1
+    assert tread_validate([*arguments, "--junit", str(junit), "--markdown", str(copy.folder / "check.md")]) == 1
     said = capsys.readouterr()
-    assert "peak_normal_force" in said.out
+    assert f"moved: peaks: spring:paper, {CASE}: peak_normal_force_N" in said.out
     assert "1 moved" in said.err
     assert ET.parse(junit).getroot().get("failures") == "1"
-    assert (copy.tables / "delta.csv").read_text(encoding="utf-8").count("\n") == 2
+    (row,) = read_rows(copy.tables / "delta.csv", Delta)
+    assert row.change == pytest.approx(1.0)
     assert tread_validate([*arguments, "--report-only"]) == 0
 
 
-def test_a_model_that_iterates_has_wider_tolerances(workspace: Any, copy: Any) -> None:
-    """The same table under the name of the coupled springs: five times the tolerance, to the four digits printed."""
-    for table in copy.tables.glob("*.csv"):
-        text = table.read_text(encoding="utf-8")
-        table.write_text(text.replace("spring:paper", "spring:coupled"), encoding="utf-8")
-    narrow = [row for row in rows_of_tables(workspace.tables) if row.source == "spring:paper"]
-    wide = [row for row in rows_of_tables(copy.tables) if row.source == "spring:coupled"]
-    assert len(narrow) == len(wide) > 0
-    for a, b in zip(narrow, wide, strict=True):
-        assert b.tolerance == pytest.approx(5.0 * a.tolerance, rel=1e-3)
+def test_a_model_that_iterates_has_wider_noise(copy: Any, baseline: Path) -> None:
+    """A peak that moves by twice the noise fails; under the name of the coupled springs it passes (five times)."""
+    width = 2.07e-4
+    assert moved(copy, baseline, 2.0 * width).failed
+    for folder in (copy.tables, baseline):
+        path = folder / "peaks.csv"
+        path.write_text(path.read_text(encoding="utf-8").replace("spring:paper", "spring:coupled"), encoding="utf-8")
+    record = yaml.safe_load((baseline / "baseline.yaml").read_text(encoding="utf-8"))
+    record["tables"]["peaks"]["sha256"] = hashlib.sha256((baseline / "peaks.csv").read_bytes()).hexdigest()
+    (baseline / "baseline.yaml").write_text(yaml.safe_dump(record), encoding="utf-8")
+    check = check_tables(load_baseline(baseline), copy.tables)
+    assert not check.failed
+    assert len(check.deltas) == 1
 
 
-def test_tables_of_another_study_are_refused(workspace: Any, copy: Any, capsys: pytest.CaptureFixture[str]) -> None:
+def test_tables_of_another_study_are_refused(copy: Any, baseline: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A baseline says nothing about another study: wrong input, not a failed check."""
-    baseline = copy.folder / "baseline"
-    accept(workspace.tables, baseline, "a good reason", allow_dirty=True)
     facts = copy.tables / "provenance.json"
     facts.write_text(facts.read_text(encoding="utf-8").replace("liu2010", "other"), encoding="utf-8")
     assert tread_validate(["check", str(copy.tables), "--baseline", str(baseline)]) == 2
     assert "got other, expected liu2010" in capsys.readouterr().err
-
-
-def test_tables_without_rows_are_refused(copy: Any) -> None:
-    """An empty comparison is an error, not a pass."""
-    path = copy.tables / "errors.csv"
-    path.write_text(path.read_text(encoding="utf-8").splitlines()[0] + "\n", encoding="utf-8")
-    with pytest.raises(InputError, match="header only"):
-        rows_of_tables(copy.tables)

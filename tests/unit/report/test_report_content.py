@@ -8,9 +8,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import pandas as pd
 import pytest
 
+from tread_validate.compare.tables import Delta, rows_text
 from tread_validate.report.baseline import baseline_section
 from tread_validate.report.cases import case_views, facets, factor_levels
 from tread_validate.report.claims import claims_table
@@ -113,30 +113,41 @@ def test_report_without_a_check_says_so(marks: Marks) -> None:
     assert "No check against a baseline was made" in section.items[0].text  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize(("passed", "tone"), [("true", "good"), ("false", "bad")])
-def test_delta_to_the_baseline_is_counted_and_shown(tmp_path: Path, marks: Marks, passed: str, tone: str) -> None:
-    """Exact: one row of the delta table; within tolerance it is good, beyond it bad."""
+MOVED = Delta(
+    "moved", "run", "peaks", "spring:paper, c", "spring:paper", "", "c", "", "", "peak_normal_force_N", "N", "1", "1.1",
+    0.1, 0.01, 10.0, False, "",
+)  # fmt: skip
+FLIP = replace(
+    MOVED, outcome="changed", kind="flip", in_table="errors", in_column="verdict", unit="", baseline="agrees",
+    current="disagrees", change=None, times_noise=None,
+)  # fmt: skip
+
+
+def test_a_flipped_verdict_stands_before_what_moved(tmp_path: Path, marks: Marks) -> None:
+    """Exact: the table of `check` is shown in its order, grouped by what happened; the sentence counts flips first."""
     path = tmp_path / "delta.csv"
-    row = {
-        "outcome": "moved",
-        "case_id": "c",
-        "quantity": "peak_normal_force",
-        "baseline": 1.0,
-        "current": 1.1,
-        "passed": passed,
-    }
-    pd.DataFrame([row]).to_csv(path, index=False)
+    path.write_text(rows_text(Delta, [FLIP, MOVED]), encoding="utf-8")
     section, moved = baseline_section(path, marks)
-    assert moved is not None
-    assert moved[0] == tone
+    assert moved == ("bad", "1 verdict flipped; 2 rows moved beyond noise, or are new, missing or stale.")
     table = section.items[1]
     assert isinstance(table, Table)
-    assert [cell.text for cell in table.rows[0].cells] == ["moved", "c", "peak_normal_force", "1", "1.1", passed]
+    assert [row.group for row in table.rows] == ["Verdicts that flipped", "Runs that moved"]
+    assert [cell.text for cell in table.rows[0].cells][3:5] == ["agrees", "disagrees"]
+    assert [cell.text for cell in table.rows[1].cells][2:] == ["peak normal force N", "1 N", "1.1 N", "10.0"]
+
+
+def test_a_move_within_noise_is_good(tmp_path: Path, marks: Marks) -> None:
+    """Exact: shown, and not counted as a failure."""
+    path = tmp_path / "delta.csv"
+    path.write_text(rows_text(Delta, [replace(MOVED, outcome="within", passed=True)]), encoding="utf-8")
+    _, moved = baseline_section(path, marks)
+    assert moved is not None
+    assert moved[0] == "good"
 
 
 def test_baseline_with_no_row_moved_is_good(tmp_path: Path, marks: Marks) -> None:
     """Exact: a delta table with only its header says that nothing moved."""
     path = tmp_path / "delta.csv"
-    path.write_text("outcome,case_id,passed\n", encoding="utf-8")
+    path.write_text(rows_text(Delta, []), encoding="utf-8")
     _, moved = baseline_section(path, marks)
-    assert moved == ("good", "No row differs from the baseline beyond its tolerance.")
+    assert moved == ("good", "No number and no word differs from the baseline beyond its noise.")

@@ -12,9 +12,10 @@ from pathlib import Path
 from ...errors import InputError, one_line
 from ...files import read_text
 from ...provenance import commit, version
+from ..tables import PeakRow, read_rows
 from .delta import BROKEN
-from .rows import rows_of_tables
 from .store import Acceptance, Baseline, save_baseline
+from .trend import add_to_trend
 
 SHORTEST_REASON = 8
 
@@ -29,7 +30,7 @@ def accept(
     allow_dirty: bool = False,
     allow_stale: bool = False,
 ) -> Baseline:
-    """Write the rows of `tables` as the baseline in `folder` and return it.
+    """Write the tables as the baseline in `folder`, append their headline numbers to its trend, and return it.
 
     Raises
     ------
@@ -51,29 +52,26 @@ def accept(
             raise InputError(
                 Path(tables) / "provenance.json", f"tables of commit {made_by}", f"{commit()}, or --allow-dirty"
             )
-    rows = rows_of_tables(tables)
-    broken = [row for row in rows if row.status in BROKEN]
+    broken = [row for row in read_rows(Path(tables) / "peaks.csv", PeakRow) if row.status in BROKEN]
     if broken and not allow_stale:
         first = broken[0]
         raise InputError(
             f"{tables}: {first.source}, {first.case_id}",
-            f"{first.status} ({len(broken)} such rows)",
+            f"{first.status} ({len(broken)} such runs)",
             "current runs and references, or --allow-stale",
         )
-    baseline = Baseline(
-        rows,
-        Acceptance(
-            reason=one_line(reason),
-            who=one_line(who or author()),
-            when=when or datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
-            commit=made_by,
-            version=version(),
-            study=str(facts.get("study", "")),
-            study_digest=str(facts.get("study_digest", "")),
-        ),
+    acceptance = Acceptance(
+        reason=one_line(reason),
+        who=one_line(who or author()),
+        when=when or datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        commit=made_by,
+        version=version(),
+        study=str(facts.get("study", "")),
+        study_digest=str(facts.get("study_digest", "")),
     )
-    save_baseline(folder, baseline)
-    return baseline
+    made = save_baseline(folder, tables, acceptance)
+    add_to_trend(folder, tables, acceptance)
+    return made
 
 
 def uncommitted(folder: Path) -> tuple[str, ...]:

@@ -1,104 +1,144 @@
-"""The delta as CSV, Markdown and JUnit XML, for people and for CI systems."""
+"""The change since the baseline as CSV, Markdown and JUnit XML, for people and for CI systems."""
 
 from __future__ import annotations
 
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict
-from typing import Any
 from xml.etree import ElementTree as ET
 
-from ..tables.text import cell, table_text
-from .delta import DELTA_COLUMNS, Delta
+from ..tables import Delta, cell, rows_text
+from .delta import Check
+from .movement import Movement
 from .store import Acceptance
 
-SHOWN = 40
+FLIPS_SHOWN, ROWS_SHOWN, MODELS_SHOWN = 8, 10, 16
 XML_ILLEGAL = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+KINDS = {
+    "flip": "verdict flipped",
+    "rule": "rule changed",
+    "input": "input changed",
+    "run": "moved",
+    "consequence": "follows",
+}
 
 
-def delta_csv(rows: Sequence[Delta]) -> str:
-    """Return the rows that moved at all or fail, furthest out first; a table without rows means nothing moved."""
-    kept = (row for row in rows if not row.passed or (row.change is not None and row.change != 0.0))
-    return table_text(DELTA_COLUMNS, map(_cells, kept))
+def delta_csv(check: Check) -> str:
+    """Return the cells that moved at all or fail; a table without rows means nothing moved."""
+    return rows_text(Delta, check.deltas)
 
 
-def summary(rows: Sequence[Delta]) -> str:
-    """Return one sentence on the outcome."""
-    failed = [row for row in rows if not row.passed]
+def summary(check: Check) -> str:
+    """Return one sentence on the outcome, flipped verdicts first."""
+    failed = check.failed
     if not failed:
-        moved = sum(row.change not in (None, 0.0) for row in rows)
-        return f"{len(rows)} rows, all within tolerance of the baseline ({moved} moved at all)"
-    counts = Counter(row.outcome for row in failed)
-    listed = ", ".join(f"{count} {outcome}" for outcome, count in sorted(counts.items()))
-    return f"{len(failed)} of {len(rows)} rows fail: {listed}"
+        return f"{check.rows} rows, all within noise of the baseline ({len(check.deltas)} numbers moved at all)"
+    flips = f"{len(check.flips)} verdicts flipped; " if check.flips else ""
+    counts = Counter(KINDS[row.kind] for row in failed if row.kind != "flip")
+    listed = ", ".join(f"{count} {kind}" for kind, count in counts.items())
+    rows = len({(row.in_table, row.row_key) for row in failed})
+    return f"{flips}{rows} of {check.rows} rows fail" + (f" ({listed})" if listed else "")
 
 
-def delta_markdown(rows: Sequence[Delta], acceptance: Acceptance, shown: int = SHOWN) -> str:
-    """Return a page with the summary and the failing rows, furthest out first."""
-    failed = [row for row in rows if not row.passed]
+def delta_markdown(check: Check, acceptance: Acceptance, movements: Sequence[Movement], page: str = "") -> str:
+    """Return at most a screen: flips, better and worse by model and quantity, then the rows furthest out.
+
+    `page` is the address of the report, to which cases link.
+    """
     lines = [
         "# Change since the accepted baseline",
         "",
-        f"{summary(rows)}.",
+        f"{_escaped(summary(check))}.",
         "",
         f"Baseline of {_escaped(acceptance.when)} by {_escaped(acceptance.who)}, code {_escaped(acceptance.commit)}: "
         f"{_escaped(acceptance.reason)}",
-        "",
     ]
-    if failed:
+    flips = check.flips
+    if flips:
+        lines += ["", "| verdict of | was | is |", "|---|---|---|"]
         lines += [
-            "| outcome | source | case | quantity | baseline | now | change | unit | times tolerance | note |",
-            "|---|---|---|---|---:|---:|---:|---|---:|---|",
+            f"| {_escaped(row.name)} | {_escaped(row.baseline)} | {_escaped(row.current)} |"
+            for row in flips[:FLIPS_SHOWN]
         ]
-        lines += ["| " + " | ".join(map(_escaped, _markdown_cells(row))) + " |" for row in failed[:shown]]
-        if len(failed) > shown:
-            lines += ["", f"... and {len(failed) - shown} more rows."]
+        lines += _more(flips, FLIPS_SHOWN, "verdicts")
+    moved = [item for item in movements if item.better or item.worse]
+    if moved:
+        lines += [
+            "",
+            "| model, quantity | better | worse | largest change of \\|error\\| | case |",
+            "|---|---:|---:|---:|---|",
+        ]
+        lines += [_movement(item, page) for item in moved[:MODELS_SHOWN]]
+        lines += _more(moved, MODELS_SHOWN, "quantities")
+    others = [row for row in check.failed if row.kind != "flip"]
+    if others:
+        lines += ["", "| kind | row | baseline | now | change | times noise |", "|---|---|---:|---:|---:|---:|"]
+        lines += ["| " + " | ".join(map(_escaped, _cells(row))) + " |" for row in others[:ROWS_SHOWN]]
+        lines += _more(others, ROWS_SHOWN, "rows")
     return "\n".join(lines).rstrip() + "\n"
 
 
-def delta_junit(rows: Sequence[Delta]) -> str:
-    """Return JUnit XML: a suite for each kind of row, a test case for each row."""
+def delta_junit(check: Check, groups: Sequence[tuple[str, str]]) -> str:
+    """Return JUnit XML: a suite of verdicts, a suite of numbers, a test case for each of `groups`, (table, source).
+
+    The names of the test cases are the same from run to run, so that a CI system can follow them.
+    """
     root = ET.Element("testsuites", name="tread-validate check")
-    root.set("tests", str(len(rows)))
-    root.set("failures", str(sum(not row.passed for row in rows)))
-    for kind in dict.fromkeys(row.kind for row in rows):
-        members = [row for row in rows if row.kind == kind]
-        suite = ET.SubElement(root, "testsuite", name=_legal(kind), tests=str(len(members)))
-        suite.set("failures", str(sum(not row.passed for row in members)))
-        for row in members:
-            case = ET.SubElement(suite, "testcase", classname=_legal(f"{kind}.{row.source}"), name=_legal(row.name))
-            if not row.passed:
-                before, now = cell(row.baseline) or "nothing", cell(row.current) or "nothing"
-                words = f"{row.outcome}: baseline {before}, now {now} {row.unit}".strip()
-                failure = ET.SubElement(case, "failure", type=row.outcome, message=_legal(words))
-                failure.text = _legal(f"change {cell(row.change)}, tolerance {cell(row.tolerance)}; {row.note}")
+    every = [*dict.fromkeys([*groups, *((row.in_table, row.source) for row in check.failed)])]
+    failures = 0
+    for title, of_flips in (("verdicts", True), ("numbers", False)):
+        suite = ET.SubElement(root, "testsuite", name=title, tests=str(len(every)))
+        broken = 0
+        for table, source in every:
+            case = ET.SubElement(suite, "testcase", classname=_legal(f"{title}.{table}"), name=_legal(source or table))
+            own = [row for row in check.failed if (row.in_table, row.source) == (table, source)]
+            own = [row for row in own if (row.kind == "flip") == of_flips]
+            if own:
+                broken += 1
+                words = f"{len(own)} {'verdicts flipped' if of_flips else 'cells'}, first {own[0].name}"
+                failure = ET.SubElement(case, "failure", type=own[0].outcome, message=_legal(words))
+                failure.text = _legal("\n".join(_line(row) for row in own[:50]))
+        suite.set("failures", str(broken))
+        failures += broken
+    root.set("tests", str(2 * len(every)))
+    root.set("failures", str(failures))
     ET.indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
 
 
-def delta_lines(rows: Sequence[Delta], shown: int = 20) -> Iterable[str]:
-    """Yield the failing rows as lines for a terminal, furthest out first."""
-    failed = [row for row in rows if not row.passed]
+def delta_lines(check: Check, shown: int = 20) -> Iterable[str]:
+    """Yield the failing rows as lines for a terminal: flips, rules, inputs, runs, and what follows from them."""
+    failed = check.failed
     for row in failed[:shown]:
-        change = "" if row.change is None else f" {cell(row.baseline)} -> {cell(row.current)} {row.unit}"
-        times = "" if row.change is None else f", {row.times_tolerance:.3g} times the tolerance"
-        yield f"{row.outcome}: {row.name}:{change}{times}{' (' + row.note + ')' if row.note else ''}"
+        yield _line(row)
     if len(failed) > shown:
         yield f"... and {len(failed) - shown} more"
 
 
-def _cells(row: Delta) -> dict[str, Any]:
-    return {**asdict(row), "passed": row.passed}
+def _line(row: Delta) -> str:
+    change = f": {row.baseline or 'nothing'} -> {row.current or 'nothing'} {row.unit}".rstrip() if row.in_column else ""
+    times = "" if row.times_noise is None else f", {row.times_noise:.3g} times the noise"
+    kind = KINDS[row.kind] if row.outcome in ("moved", "changed") else row.outcome
+    return f"{kind}: {row.name}{change}{times}{' (' + row.note + ')' if row.note else ''}"
 
 
-def _markdown_cells(row: Delta) -> list[str]:
-    quantity = row.quantity if row.metric in ("scalar", "claim", "coefficient") else f"{row.quantity}, {row.metric}"
-    times = "" if row.change is None else f"{row.times_tolerance:.3g}"
-    return [
-        row.outcome, row.source, row.case_id, quantity, cell(row.baseline), cell(row.current), cell(row.change),
-        row.unit, times, row.note,
-    ]  # fmt: skip
+def _cells(row: Delta) -> list[str]:
+    times = "" if row.times_noise is None else f"{row.times_noise:.3g}"
+    kind = KINDS[row.kind] if row.outcome in ("moved", "changed") else f"{KINDS[row.kind]}, {row.outcome}"
+    change = f"{cell(row.change)} {row.unit}".strip() if row.change is not None else row.note
+    return [kind, row.name, row.baseline, row.current, change, times]
+
+
+def _movement(item: Movement, page: str) -> str:
+    case = _escaped(item.case_id)
+    link = f"[{case}]({page}#case={item.case_id})" if page and item.case_id else case
+    name = f"{item.predicted_source}, {item.quantity}" + ("" if item.metric == "scalar" else f", {item.metric}")
+    change = f"{item.before:.4g} → {item.now:.4g} {'' if item.unit == '1' else item.unit}".rstrip()
+    return f"| {_escaped(name)} | {item.better} | {item.worse} | {change} | {link} |"
+
+
+def _more(rows: Sequence[object], shown: int, what: str) -> list[str]:
+    return ["", f"... and {len(rows) - shown} more {what}."] if len(rows) > shown else []
 
 
 def _escaped(text: str) -> str:

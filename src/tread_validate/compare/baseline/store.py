@@ -1,24 +1,27 @@
-"""An accepted set of rows with the record of who accepted it, when, why and from which code."""
+"""The accepted tables with the record of who accepted them, when, why and from which code."""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from ...errors import InputError, one_line
+from ...errors import InputError
 from ...files import read_text, write_text
 from ...provenance import sha256_text
 from ...yaml_text import read_mapping, write_yaml
-from ..tables.text import table_text
-from .rows import ROW_COLUMNS, BaselineRow
+from ..quantities import SCALARS, Noise
+from ..tables import TABLES
 
-SCHEMA_VERSION = 1
-ROWS, RECORD = "rows.csv", "baseline.yaml"
+SCHEMA_VERSION = 2
+RECORD = "baseline.yaml"
+WIDEST = 10.0  # times today's noise: more would hide a change of a model, whoever wrote it into the record
+
+Cells = Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -43,49 +46,64 @@ class Acceptance:
 
 @dataclass(frozen=True)
 class Baseline:
-    """Accepted rows and their record."""
+    """Accepted tables, as text by column, the noise that was declared for them, and their record."""
 
-    rows: tuple[BaselineRow, ...]
+    tables: Mapping[str, tuple[Cells, ...]]
+    noise: Mapping[str, Noise]
     acceptance: Acceptance
 
+    @property
+    def rows(self) -> int:
+        """Number of rows of all tables."""
+        return sum(map(len, self.tables.values()))
 
-def save_baseline(folder: Path | str, baseline: Baseline) -> None:
-    """Write rows and record, the record last: a baseline without one does not load."""
-    if not baseline.rows:
-        raise InputError("baseline", "no rows", "at least one row to accept")
-    place = Path(folder)
-    text = table_text(ROW_COLUMNS, map(asdict, baseline.rows))
+
+def todays_noise() -> dict[str, Noise]:
+    """Return the noise of every scalar, as the code declares it."""
+    return {quantity.name: quantity.noise for quantity in SCALARS}
+
+
+def save_baseline(folder: Path | str, tables: Path | str, acceptance: Acceptance) -> Baseline:
+    """Write the tables as they are and their record, the record last: a baseline without one does not load."""
+    place, source = Path(folder), Path(tables)
+    texts = {name: read_text(source / f"{name}.csv") for name in TABLES}
+    parsed = {name: _cells(text, source / f"{name}.csv") for name, text in texts.items()}
     record = {
         "schema_version": SCHEMA_VERSION,
-        **asdict(baseline.acceptance),
-        "rows": len(baseline.rows),
-        "rows_sha256": sha256_text(text),
+        **asdict(acceptance),
+        "noise": {name: [noise.relative, noise.absolute] for name, noise in todays_noise().items()},
+        "tables": {name: {"rows": len(parsed[name]), "sha256": sha256_text(text)} for name, text in texts.items()},
     }
-    write_text(place / ROWS, text)
+    for name, text in texts.items():
+        write_text(place / f"{name}.csv", text)
     write_yaml(place / RECORD, record)
+    return Baseline(parsed, todays_noise(), acceptance)
 
 
 def load_baseline(folder: Path | str) -> Baseline:
     """Read a baseline.
 
-    Raises `InputError` where there is none, for another schema version, an empty one, and rows that are not those
-    of the record.
+    Raises `InputError` where there is none, for another schema version, a table that is missing, empty or not that of
+    the record, and a noise that would hide a change.
     """
     place = Path(folder)
     if not (place / RECORD).is_file():
         raise InputError(place / RECORD, "no such file", "a baseline; `tread-validate accept` makes one")
     record = _record(place / RECORD)
-    text = read_text(place / ROWS)
-    if sha256_text(text) != record["rows_sha256"]:
-        raise InputError(place / ROWS, "rows of another checksum", f"those that {RECORD} was written for")
-    reader = csv.DictReader(io.StringIO(text))
-    if tuple(reader.fieldnames or ()) != ROW_COLUMNS:
-        raise InputError(f"{place / ROWS}:1", one_line(",".join(reader.fieldnames or ()), 120), ",".join(ROW_COLUMNS))
-    rows = tuple(_row(cells, f"{place / ROWS}:{line}") for line, cells in enumerate(reader, start=2))
-    if not rows:
-        raise InputError(place / ROWS, "a header only", "at least one accepted row")
+    tables = {}
+    for name, facts in record["tables"].items():
+        path = place / f"{name}.csv"
+        text = read_text(path)
+        if not isinstance(facts, dict) or sha256_text(text) != facts.get("sha256"):
+            raise InputError(path, "a table of another checksum", f"the one that {RECORD} was written for")
+        tables[str(name)] = _cells(text, path)
+        if len(tables[str(name)]) != facts.get("rows"):
+            raise InputError(path, f"{len(tables[str(name)])} rows", f"{facts.get('rows')}, as {RECORD} says")
+    if not tables.get("errors") or not tables.get("peaks"):
+        raise InputError(place / RECORD, "no accepted runs and errors", "tables with rows")
     names = Acceptance.__dataclass_fields__
-    return Baseline(rows, Acceptance(**{name: str(record[name]) for name in names}))
+    acceptance = Acceptance(**{name: str(record[name]) for name in names})
+    return Baseline(tables, _noise(record["noise"], place / RECORD), acceptance)
 
 
 def same_study(baseline: Baseline, tables: Path | str) -> None:
@@ -106,20 +124,39 @@ def _record(path: Path) -> dict[str, Any]:
         raise InputError(
             f"{path}: schema_version", record.get("schema_version"), f"{SCHEMA_VERSION}; accept a new baseline"
         )
-    needed: Sequence[str] = (*Acceptance.__dataclass_fields__, "rows_sha256")
+    needed: Sequence[str] = (*Acceptance.__dataclass_fields__, "noise", "tables")
     for name in needed:
         if name not in record:
             raise InputError(f"{path}: {name}", "nothing", "a value")
+    for name in ("noise", "tables"):
+        if not isinstance(record[name], dict):
+            raise InputError(f"{path}: {name}", type(record[name]).__name__, "a mapping of keys")
     return record
 
 
-def _row(cells: dict[str, str], where: str) -> BaselineRow:
-    if None in cells or None in cells.values():
-        raise InputError(where, "a row of another length", f"{len(ROW_COLUMNS)} cells")
-    try:
-        value = float(cells["value"]) if cells["value"] else None
-        tolerance = float(cells["tolerance"])
-    except ValueError:
-        raise InputError(where, "a value that is no number", "numbers in value and tolerance") from None
-    names = [name for name in ROW_COLUMNS if name not in ("value", "tolerance")]
-    return BaselineRow(value=value, tolerance=tolerance, **{name: cells[name] for name in names})
+def _noise(data: Mapping[str, Any], path: Path) -> dict[str, Noise]:
+    """Read the accepted noise; one beyond the bounds of any noise, or far from today's, is refused."""
+    found = {}
+    today = todays_noise()
+    for name, values in data.items():
+        where = f"{path}: noise.{name}"
+        try:
+            noise = Noise(*(float(value) for value in values))
+        except (TypeError, ValueError) as error:
+            raise InputError(where, values, f"a relative and an absolute noise ({error})") from None
+        own = today.get(name, noise)
+        if noise.relative > WIDEST * own.relative or noise.absolute > WIDEST * own.absolute:
+            limits = f"{WIDEST * own.relative:g} and {WIDEST * own.absolute:g}"
+            raise InputError(where, f"{noise.relative:g} and {noise.absolute:g}", f"at most {limits}")
+        found[str(name)] = noise
+    return found
+
+
+def _cells(text: str, path: Path) -> tuple[Cells, ...]:
+    reader = csv.DictReader(io.StringIO(text))
+    rows = []
+    for line, row in enumerate(reader, start=2):
+        if None in row or None in row.values():
+            raise InputError(f"{path}:{line}", "a row of another length", f"{len(reader.fieldnames or ())} cells")
+        rows.append(row)
+    return tuple(rows)

@@ -1,11 +1,12 @@
 """What is compared: every quantity of a pass and every score of a pair of histories, a row each."""
 
-from .catalogue import HISTORIES, HISTORY_METRIC, HISTORY_METRICS, SCALAR, SCALARS
+from .catalogue import HEADLINE, HISTORIES, HISTORY_METRIC, HISTORY_METRICS, SCALAR, SCALARS
 from .contact import Contact, contact_window
 from .quantity import FORCE_TOLERANCE, SMALL_SHARE, ErrorType, HistoryMetric, Noise, Quantity, Scale
 from .scalars import Scalars, scalars
 
 __all__ = [
-    "FORCE_TOLERANCE", "HISTORIES", "HISTORY_METRIC", "HISTORY_METRICS", "SCALAR", "SCALARS", "SMALL_SHARE", "Contact",
-    "ErrorType", "HistoryMetric", "Noise", "Quantity", "Scalars", "Scale", "contact_window", "scalars",
+    "FORCE_TOLERANCE", "HEADLINE", "HISTORIES", "HISTORY_METRIC", "HISTORY_METRICS", "SCALAR", "SCALARS",
+    "SMALL_SHARE", "Contact", "ErrorType", "HistoryMetric", "Noise", "Quantity", "Scalars", "Scale", "contact_window",
+    "scalars",
 ]  # fmt: skip

@@ -56,3 +56,18 @@ HISTORY_METRICS = (
     HistoryMetric("iso18571_slope", "ISO/TS 18571 slope", "score", 0.20, 1.5, ISO),
 )
 HISTORY_METRIC = {metric.name: metric for metric in HISTORY_METRICS}
+
+# what is shown first of every model, as (quantity, metric)
+HEADLINE = (
+    ("peak_normal_force", "scalar"),
+    ("peak_positive_tangential_force", "scalar"),
+    ("peak_negative_tangential_force", "scalar"),
+    ("normal_impulse", "scalar"),
+    ("contact_duration", "scalar"),
+    ("normal_force", "relative_rms"),
+    ("tangential_force", "relative_rms"),
+    ("normal_force", "sprague_geers_c"),
+    ("tangential_force", "sprague_geers_c"),
+    ("normal_force", "iso18571_r"),
+    ("tangential_force", "iso18571_r"),
+)

@@ -17,7 +17,7 @@ SMALL_SHARE = 0.20  # a tangential force below this share of the peak normal for
 # A noise is what another processor may do to a number, not what a change of the code may: bounds that no noise of a
 # deterministic model exceeds. A declaration beyond them is a mistake and is refused.
 MOST_RELATIVE = 1e-3
-MOST_OF_TOLERANCE = 0.05
+MOST_ABSOLUTE = {"N": 1e-2, "N s": 1e-4, "s": 1e-4, "1": 5e-3}
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,11 @@ class Quantity:
     small: Scale | None = None
     measured: bool = True
     flag: bool = False
+
+    def __post_init__(self) -> None:
+        most = 0.5 if self.flag else MOST_ABSOLUTE[self.unit]
+        if self.noise.absolute > most:
+            raise ValueError(f"{self.name}: got a noise of {self.noise.absolute:g} {self.unit}, expected <= {most:g}")
 
     @property
     def column(self) -> str:

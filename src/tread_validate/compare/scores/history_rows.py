@@ -29,6 +29,7 @@ class _Score:
     tolerance: float
     moved: float | None
     note: str = ""
+    grade: str = ""
 
 
 def history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertainty: Uncertainty) -> list[MetricRow]:
@@ -77,6 +78,7 @@ def history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertai
                 metric_unit(metric), score.error, score.error_type, score.moved, score.tolerance,
                 abs(score.error) <= score.tolerance, verdict(score.error, score.tolerance, score.moved), "current",
                 score.note,
+                grade=score.grade,
             )
         )  # fmt: skip
     return rows
@@ -131,8 +133,8 @@ def _iso(rating: IsoRating, amplitude: float | None) -> dict[str, _Score]:
         if metric.name in values:
             value = values[metric.name]
             moved = None if amplitude is None else metric.sensitivity * amplitude
-            note = grade(value) if metric.name == "iso18571_r" else ""
-            scores[metric.name] = _Score(1.0, value, value - 1.0, "score", metric.tolerance, moved, note)
+            word = grade(value) if metric.name == "iso18571_r" else ""
+            scores[metric.name] = _Score(1.0, value, value - 1.0, "score", metric.tolerance, moved, grade=word)
     return scores
 
 

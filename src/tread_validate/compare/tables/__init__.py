@@ -5,6 +5,7 @@ there.
 """
 
 from .catalogue import TABLES
+from .delta import Delta, Outcome, TrendRow
 from .errors import Ensemble, MetricRow, Sensitivity, Verdict
 from .package import write_package
 from .row import Column, Row, column
@@ -14,7 +15,7 @@ from .statements import ClaimRow, PublishedRow
 from .text import cell, read_rows, rows_text, table_text, write_rows, write_table
 
 __all__ = [
-    "TABLES", "AssumedRow", "CaseRow", "ClaimRow", "Coefficient", "Column", "Difference", "Ensemble", "MetricRow",
-    "PeakRow", "PublishedRow", "Residual", "Row", "Sensitivity", "Verdict", "cell", "column", "read_rows", "rows_text",
-    "table_text", "write_package", "write_rows", "write_table",
+    "TABLES", "AssumedRow", "CaseRow", "ClaimRow", "Coefficient", "Column", "Delta", "Difference", "Ensemble",
+    "MetricRow", "Outcome", "PeakRow", "PublishedRow", "Residual", "Row", "Sensitivity", "TrendRow", "Verdict",
+    "cell", "column", "read_rows", "rows_text", "table_text", "write_package", "write_rows", "write_table",
 ]  # fmt: skip

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Literal
 
-from ..quantities import ErrorType
-from .row import Row, column, table_row
+from ..quantities import HISTORY_METRIC, SCALAR, ErrorType, Noise
+from .row import Column, Row, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
 Verdict = Literal["agrees", "disagrees", "cannot tell"]
+SCATTER = Noise(1e-3, 1e-4)
 METRIC = "`scalar`, or the score of two histories"
 ERROR_TYPE = "`relative`: over the reference; `absolute`: in `unit`; `score`: score less 1"
 
@@ -43,14 +44,29 @@ class MetricRow(Row):
     error: float | None = column("signed error of the prediction, as `error_type` says")
     error_type: ErrorType = column(ERROR_TYPE)
     reference_uncertainty: float | None = column(
-        "what the reference's uncertainty makes of the error, in the error's unit; empty where it is not known"
+        "what the reference's uncertainty makes of the error, in the error's unit; empty where it is not known",
+        noise=Noise(1e-4, 1e-8),
     )
-    tolerance: float | None = column("largest |error| that passes, in the error's unit")
+    tolerance: float | None = column("largest |error| that passes, in the error's unit", noise=Noise(2e-5, 0.0))
     passed: bool | None = column("whether |error| <= tolerance; empty without an error")
     verdict: Verdict = column("`agrees`, `disagrees` or `cannot tell`")
     status: str = column(STATUS, default="current")
-    note: str = column(NOTE, default="")
+    note: str = column(NOTE, default="", free=True)
     assumed: str = column(ASSUMED, default="")
+    grade: str = column("grade of an ISO/TS 18571 score R: excellent, good, fair or poor", default="")
+
+    def noise(self, found: Column) -> Noise:
+        """Return the noise of the quantity, or of the score, for its values and for the error made of them."""
+        if found.name not in ("reference", "predicted", "error"):
+            return found.noise
+        if self.metric != "scalar":
+            newtons = self.unit == "N" and (found.name != "error" or self.error_type == "absolute")
+            return SCALAR["peak_positive_tangential_force"].noise if newtons else HISTORY_METRIC[self.metric].noise
+        own = SCALAR[self.quantity].noise
+        if found.name != "error" or self.error_type != "relative" or not self.reference:
+            return own
+        # a relative error moves as far as its prediction, over the reference
+        return Noise(own.relative, own.relative + own.absolute / abs(self.reference))
 
     def marked(self, assumed: str) -> MetricRow:
         """Return the row with the assumed and synthetic inputs it rests on."""
@@ -75,16 +91,26 @@ class Ensemble(Row):
     cases: int = column("cases of the group")
     compared: int = column("cases with an error")
     passed: int = column("cases whose error is within its tolerance")
-    mean_abs_error: float | None = column("mean of |error|")
-    largest_abs_error: float | None = column("largest |error|")
+    mean_abs_error: float | None = column("mean of |error|", noise=Noise(1e-5, 1e-4))
+    largest_abs_error: float | None = column("largest |error|", noise=Noise(1e-5, 1e-4))
     largest_case_id: str = column("the case that has it")
-    bias: float | None = column("factor by which the model exceeds the reference on average; 1 is none")
-    model_scatter: float | None = column("sigma_M, the model's own relative scatter")
-    total_scatter: float | None = column("standard deviation of ln(predicted/reference)")
-    reference_scatter: float | None = column("sigma_E, the reference's relative uncertainty")
+    bias: float | None = column(
+        "factor by which the model exceeds the reference on average; 1 is none", noise=Noise(1e-4, 0.0)
+    )
+    model_scatter: float | None = column("sigma_M, the model's own relative scatter", noise=SCATTER)
+    total_scatter: float | None = column("standard deviation of ln(predicted/reference)", noise=SCATTER)
+    reference_scatter: float | None = column("sigma_E, the reference's relative uncertainty", noise=SCATTER)
     status: str = column(STATUS)
-    note: str = column(NOTE)
+    note: str = column(NOTE, free=True)
     assumed: str = column(ASSUMED)
+
+    def noise(self, found: Column) -> Noise:
+        """Return the noise of the scores for errors that are scores, and of the quantity for those in its unit."""
+        if found.name not in ("mean_abs_error", "largest_abs_error"):
+            return found.noise
+        if self.metric != "scalar":
+            return found.noise if self.error_type == "absolute" else HISTORY_METRIC[self.metric].noise
+        return SCALAR[self.quantity].noise if self.error_type == "absolute" else found.noise
 
 
 @table_row
@@ -102,3 +128,7 @@ class Sensitivity(Row):
     samples: int = column("samples of both histories")
     value: float = column("the score")
     change: float = column("the score less that reported")
+
+    def noise(self, found: Column) -> Noise:
+        """Return the noise of the score."""
+        return HISTORY_METRIC[self.metric].noise if found.kind == "number" else found.noise

@@ -10,21 +10,30 @@ from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, ClassVar, Literal, Self, TypeVar
 
 from ...errors import InputError, one_line
+from ..quantities import Noise
 
 AnyRow = TypeVar("AnyRow")
 Kind = Literal["string", "number", "integer", "boolean", "list"]
+EXACT = Noise(0.0, 0.0)
+PRINTED = Noise(2e-6, 0.0)  # numbers are printed with seven digits, and the last may turn over
 WORDS = {"true": True, "false": False}
 
 
 @dataclass(frozen=True)
 class Column:
-    """One column: its name in the header, kind of values, unit (empty where it has none) and what it holds."""
+    """One column: its name in the header, kind of values, unit (empty where it has none) and what it holds.
+
+    `noise` is how far another processor may move its numbers; `free` says that the baseline does not hold it: words for
+    people, and digests of files whose numbers it holds anyway.
+    """
 
     name: str
     kind: Kind
     unit: str
     description: str
     optional: bool
+    noise: Noise = EXACT
+    free: bool = False
 
 
 @dataclass(frozen=True)
@@ -34,9 +43,11 @@ class Spread:
     columns: tuple[tuple[str, Column], ...]
 
 
-def column(description: str, unit: str = "", default: Any = MISSING) -> Any:
+def column(
+    description: str, unit: str = "", default: Any = MISSING, noise: Noise | None = None, free: bool = False
+) -> Any:
     """Declare a column of a row class; its kind and whether it may be empty follow from the annotation."""
-    return field(default=default, metadata={"description": description, "unit": unit})
+    return field(default=default, metadata={"description": description, "unit": unit, "noise": noise, "free": free})
 
 
 def spread(columns: Mapping[str, Column]) -> Any:
@@ -83,6 +94,10 @@ class Row:
         """Return the values of the key's columns as text."""
         return tuple(str(getattr(self, name)) for name in self.key)
 
+    def noise(self, found: Column) -> Noise:
+        """Return how far the value of a column may move before it counts as moved; words and counts not at all."""
+        return found.noise
+
     @classmethod
     def read(cls, texts: Mapping[str, str], where: str) -> Self:
         """Return the row that a table's cells spell; raises `InputError` at the cell that is wrong."""
@@ -115,9 +130,10 @@ def _make_layout(cls: type[Row]) -> Layout:
             found += [(item.name, key, one) for key, one in item.metadata["spread"].columns]
             continue
         kind, optional = _kind(hints[item.name])
-        found.append(
-            (item.name, None, Column(item.name, kind, item.metadata["unit"], item.metadata["description"], optional))
-        )
+        given = item.metadata
+        noise = given["noise"] or (PRINTED if kind == "number" else EXACT)
+        made = Column(item.name, kind, given["unit"], given["description"], optional, noise, given["free"])
+        found.append((item.name, None, made))
     return tuple(found)
 
 

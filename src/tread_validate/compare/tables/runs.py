@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..quantities import SCALARS
+from ..quantities import SCALARS, Noise
 from .row import Column, Row, column, spread, table_row
 
 ASSUMED = "assumed and synthetic inputs that the row rests on, `; ` between them"
@@ -32,7 +32,7 @@ class CaseRow(Row):
     interference_mm: float = column("largest compression of the block", "mm")
     speed_m_s: float = column("speed of the surface", "m/s")
     speed_rpm: float | None = column("speed of the small wheel, on a rig", "1/min")
-    creep_percent: float | None = column("creep ratio: road faster than block", "%")
+    creep_percent: float | None = column("creep ratio: road faster than block", "%", noise=Noise(1e-5, 1e-7))
     free_rolling: bool = column("whether the creep ratio is that of no net tangential impulse")
     measured_profile: bool = column("whether the path is a measured trace")
     shape: str = column("plan of the block: rectangle or parallelogram")
@@ -59,14 +59,18 @@ class PeakRow(Row):
     speed_m_s: float = column("speed of the surface", "m/s")
     values: Mapping[str, float | None] = spread(
         {
-            item.name: Column(item.column, "number", "" if item.unit == "1" else item.unit, item.label, True)
+            item.name: Column(
+                item.column, "number", "" if item.unit == "1" else item.unit, item.label, True, item.noise
+            )
             for item in SCALARS
         }
     )
-    peak_pressure_MPa: float | None = column("largest normal force over the area of the face", "MPa")
+    peak_pressure_MPa: float | None = column(
+        "largest normal force over the area of the face", "MPa", noise=Noise(5e-6, 1e-7)
+    )
     status: str = column(STATUS)
-    note: str = column(NOTE)
-    history_sha256: str = column("SHA-256 of the history file; empty where there is none")
+    note: str = column(NOTE, free=True)
+    history_sha256: str = column("SHA-256 of the history file; empty where there is none", free=True)
     assumed: str = column(ASSUMED)
 
     @property

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from ..quantities import Noise
 from .errors import Verdict
-from .row import Row, column, table_row
+from .row import Column, Row, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
+OF_SAMPLES = ("rig_peak_at_centre", "belt_slip_at_exit")  # read off at one sample of a history
 SPREAD_KIND = "what the interval is: sd, range, rounding, last digit, about, sign, exact, exists, grade or none"
 
 
@@ -33,13 +35,18 @@ class ClaimRow(Row):
     spread_kind: str = column(SPREAD_KIND)
     source: str = column(SOURCE + "; `study` where no run is behind it")
     case_ids: tuple[str, ...] = column("the cases behind it")
-    computed: float | None = column("the computed value, in `unit`")
-    error: float | None = column("of the computed value, as `error_type` says")
+    computed: float | None = column("the computed value, in `unit`", noise=Noise(1e-4, 1e-6))
+    error: float | None = column("of the computed value, as `error_type` says", noise=Noise(1e-4, 1e-6))
     error_type: str = column("`relative` or `absolute`")
     verdict: Verdict = column("`agrees`, `disagrees` or `cannot tell`")
     status: str = column(STATUS + "; `not_compared` for context")
-    note: str = column(NOTE)
+    note: str = column(NOTE, free=True)
     assumed: str = column(ASSUMED)
+
+    def noise(self, found: Column) -> Noise:
+        """Return that of the statement, where it stands for an instant or for a share that slips."""
+        of_samples = found.name in ("computed", "error") and self.claim_id in OF_SAMPLES
+        return Noise(0.0, 2e-3) if of_samples else found.noise
 
 
 @table_row
