@@ -116,7 +116,8 @@ def delta_lines(check: Check, shown: int = 20) -> Iterable[str]:
 
 
 def _line(row: Delta) -> str:
-    change = f": {row.baseline or 'nothing'} -> {row.current or 'nothing'} {row.unit}".rstrip() if row.in_column else ""
+    before, now = _short(row.baseline) or "nothing", _short(row.current) or "nothing"
+    change = f": {before} -> {now} {row.unit}".rstrip() if row.in_column else ""
     times = "" if row.times_noise is None else f", {row.times_noise:.3g} times the noise"
     kind = KINDS[row.kind] if row.outcome in ("moved", "changed") else row.outcome
     return f"{kind}: {row.name}{change}{times}{' (' + row.note + ')' if row.note else ''}"
@@ -126,7 +127,11 @@ def _cells(row: Delta) -> list[str]:
     times = "" if row.times_noise is None else f"{row.times_noise:.3g}"
     kind = KINDS[row.kind] if row.outcome in ("moved", "changed") else f"{KINDS[row.kind]}, {row.outcome}"
     change = f"{cell(row.change)} {row.unit}".strip() if row.change is not None else row.note
-    return [kind, row.name, row.baseline, row.current, change, times]
+    return [kind, row.name, _short(row.baseline), _short(row.current), change, times]
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 24 else f"{text[:12]}..."
 
 
 def _movement(item: Movement, page: str) -> str:
