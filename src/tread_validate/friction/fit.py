@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
 from ..errors import InputError
+from ..units import MPA
 from .law import FrictionLaw
 from .law_file import FITTED as CONSTANTS
 from .laws.huemer import huemer_law
@@ -29,6 +31,7 @@ SEARCH = ("alpha", "beta", "n", "m", "u0", "c/d")
 HOLDABLE = ("beta", "n", "m")
 FALLBACKS: tuple[tuple[str, float], ...] = (("beta", 0.0), ("m", 10.0))
 FEWEST_SPEEDS = 4
+POLISHES = 8
 PARALLEL = 0.999  # correlation beyond which two constants cannot be told apart
 
 
@@ -121,18 +124,26 @@ def _check(data: FrictionData, held: Mapping[str, float]) -> None:
 
 def _constants(q: Array) -> dict[str, float]:
     """Return the constants of the search variables, a + b + c = 1."""
+    return {name: float(value) for name, value in zip(CONSTANTS, _ratios(q), strict=True)}
+
+
+def _ratios(q: NDArray[Any]) -> tuple[Any, ...]:
     u0, ratio = q[4], np.exp(q[5])
     at_one = 1.0 + ratio * (1.0 - u0) ** 2
     a, b, c = (1.0 + ratio * u0**2) / at_one, -2.0 * ratio * u0 / at_one, ratio / at_one
-    values = (np.exp(q[0]), q[1], q[2], np.exp(q[3]), a, b, c)
-    return {name: float(value) for name, value in zip(CONSTANTS, values, strict=True)}
+    return np.exp(q[0]), q[1], q[2], np.exp(q[3]), a, b, c
 
 
 def _model(q: Array, data: FrictionData) -> Array:
-    k = _constants(q)
-    u = data.slip_speed ** (-1.0 / k["m"])
-    above = k["alpha"] * (data.pressure * 1e-6) ** (k["n"] - 1.0) + k["beta"]
-    return np.asarray(above / (k["a"] + k["b"] * u + k["c"] * u * u), dtype=np.float64)
+    return np.asarray(_at(_ratios(q), data), dtype=np.float64)
+
+
+def _at(constants: tuple[Any, ...], data: FrictionData) -> NDArray[Any]:
+    """Return the law at each row, (n,); constants may be complex, to be differentiated."""
+    alpha, beta, n, m, a, b, c = constants
+    u = data.slip_speed ** (-1.0 / m)
+    above = alpha * (data.pressure / MPA) ** (n - 1.0) + beta
+    return np.asarray(above / (a + b * u + c * u * u))
 
 
 def _solve(data: FrictionData, held: Mapping[str, float]) -> tuple[Array, Array]:
@@ -155,30 +166,55 @@ def _solve(data: FrictionData, held: Mapping[str, float]) -> tuple[Array, Array]
     def misfit(q: Array) -> Array:
         return np.asarray(_model(full(q), data) - data.coefficient, dtype=np.float64)
 
+    scales = np.array([0.3, 0.2, 0.2, 0.5, 0.3, 1.0])[free]
+    bounds = (low[free], high[free])
     best = None
     scale = float(np.log(np.mean(data.coefficient)))
     for u0 in (0.6, 1.0, 1.3, 2.0):
         for ratio in (0.0, 3.0):
             start = centre.copy()
             start[0], start[4], start[5] = scale, u0, ratio
-            found = least_squares(
-                misfit,
-                start[free],
-                bounds=(low[free], high[free]),
-                x_scale=np.array([0.3, 0.2, 0.2, 0.5, 0.3, 1.0])[free],
-                max_nfev=300,
-            )
+            found = least_squares(misfit, start[free], bounds=bounds, x_scale=scales, max_nfev=300)
             if best is None or found.cost < best.cost:
                 best = found
     assert best is not None
+    q = _polished(full(best.x), free & (full(best.x) > low + 1e-6) & (full(best.x) < high - 1e-6), data)
     freedom = max(data.coefficient.size - int(free.sum()), 1)
-    variance = 2.0 * float(best.cost) / freedom
-    jacobian = np.asarray(best.jac, dtype=np.float64)
+    variance = float(np.sum((_model(q, data) - data.coefficient) ** 2)) / freedom
+    jacobian = _slopes(q, free, data)
     size = np.maximum(np.linalg.norm(jacobian, axis=0), 1e-12)
     inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size), rcond=1e-13)
     covariance = np.zeros((len(SEARCH), len(SEARCH)))
     covariance[np.ix_(free, free)] = max(variance, 1e-18) * inverse / np.outer(size, size)
-    return full(best.x), covariance
+    return q, covariance
+
+
+def _slopes(q: Array, free: NDArray[np.bool_], data: FrictionData) -> Array:
+    """Return the derivatives of the model by the free search variables, (n, k), exact: a step along the imaginary."""
+    columns = []
+    for k in np.flatnonzero(free):
+        moved = q.astype(np.complex128)
+        moved[k] += 1e-30j
+        columns.append(_at(_ratios(moved), data).imag * 1e30)
+    return np.column_stack(columns)
+
+
+def _polished(q: Array, free: NDArray[np.bool_], data: FrictionData) -> Array:
+    """Return the minimum near `q` to round-off: where a search stops depends on the processor, the minimum does not."""
+    for _ in range(POLISHES if free.any() else 0):
+        jacobian = _slopes(q, free, data)
+        size = np.maximum(np.sqrt(np.sum(jacobian**2, axis=0)), 1e-300)
+        scaled = jacobian / size
+        gradient = np.array([np.sum(column * (_model(q, data) - data.coefficient)) for column in scaled.T])
+        step = np.zeros(q.size)
+        step[free] = np.linalg.lstsq(scaled.T @ scaled, gradient, rcond=1e-13)[0] / size
+        better = q - step
+        if np.sum((_model(better, data) - data.coefficient) ** 2) > 1.000001 * np.sum(
+            (_model(q, data) - data.coefficient) ** 2
+        ):
+            return q  # not determined: the search's answer stands, with its warnings
+        q = better
+    return q
 
 
 def _spread(q: Array, covariance: Array) -> Array:
