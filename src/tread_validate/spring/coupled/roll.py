@@ -177,6 +177,9 @@ def step_times(path: Path, size: float, settings: CoupledSettings) -> Array:
     """
     fine, longest = settings.step * size, settings.longest_step * size
     extent = path.columns.extent
+    if path.columns.together:  # nothing rolls over the face: it is pressed, and slides, as a whole
+        even = min(fine / path.speed, 2.0 * path.finest_time)
+        return np.arange(-2.0 * even, 1.05 * path.contact_duration, even)
     total = path.contact_duration * path.speed
     edge = extent + max(0.0, _approach(path))
     down, quiet = (extent, total - extent), (edge, total - edge)
