@@ -21,18 +21,6 @@ def sha256_file(path: Path | str) -> str:
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
-def deck_digest(inp_text: str, user_text: str | None = None) -> str:
-    """Return the digest that binds an FE result to the physics of its deck.
-
-    Comment lines do not count (``**`` in the deck; ``c``, ``C``, ``*`` or ``!`` in column 1 of the Fortran), so that
-    a new package version or another study title does not make a reference run stale, while any number does.
-    """
-    kept = [line.rstrip() for line in inp_text.splitlines() if not line.startswith("**")]
-    if user_text is not None:
-        kept += [line.rstrip() for line in user_text.splitlines() if line[:1] not in ("c", "C", "*", "!")]
-    return sha256_text("\n".join(kept))
-
-
 @cache
 def commit() -> str:
     """Return the commit of the code in use, with ``+changes`` for a dirty tree, or ``unknown`` outside git."""

@@ -19,6 +19,8 @@ from .. import provenance
 from ..errors import EngineError, one_line
 from ..files import read_text
 from ..history import History
+from ..inp import problem_of
+from ..source_code import code_digest
 from ..yaml_text import write_yaml
 from .subset import ElasticDeck, read_elastic_deck
 from .write import Resolution, dialect
@@ -133,12 +135,14 @@ def _run(
         )
     totals = read_totals(folder / "job.dat")
     history, mount = _history(deck, totals)
-    inp = read_text(source)
-    digest = provenance.deck_digest(inp, None if user is None else read_text(user))
+    digest = problem_of(source, None if user is None else read_text(user)).digest
+    code = code_digest("calculix")
     record: dict[str, Any] = {
         "case_id": deck.case_id,
         "engine": "calculix",
         "version": version_of(log),
+        "commit": provenance.commit(),
+        "code": code,
         "deck_digest": digest,
         "deck_sha256": provenance.sha256_file(source),
         "user_sha256": "" if user is None else provenance.sha256_file(user),
@@ -157,6 +161,8 @@ def _run(
         "case_id": deck.case_id,
         "producer": "fe/calculix",
         "version": str(record["version"]),
+        "engine": "calculix",
+        "code": code,
         "deck_digest": digest,
         "slipping": "not available",
     }

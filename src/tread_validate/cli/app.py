@@ -55,6 +55,7 @@ VERBS = {
     "stale": "stale",
     "mesh-error": "mesh_error",
     "file-references": "file_references",
+    "migrate-references": "migrate_references",
     "schema": "schema",
 }
 

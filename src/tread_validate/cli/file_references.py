@@ -10,49 +10,45 @@ import typer
 
 def command(
     histories: Annotated[list[Path] | None, typer.Argument(help="histories with their records beside them")] = None,
-    engine: Annotated[str, typer.Option("--engine", help="whose runs they are")] = "embedded",
+    decks: Annotated[Path, typer.Option("--decks", help="folder of the decks that were run")] = Path("fe_inputs"),
     references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
-    convergence: Annotated[
-        Path | None, typer.Option("--convergence", help="folder with rig.yaml and belt.yaml of the mesh study")
+    engine: Annotated[
+        str | None, typer.Option("--engine", help="refuse runs of any other engine; each is filed under its own")
     ] = None,
+    study: Annotated[str, typer.Option("--study", help="name of the study, for the record")] = "",
+    replace: Annotated[
+        bool, typer.Option("--replace", help="replace filed runs of the same problem that differ beyond noise")
+    ] = False,
 ) -> None:
-    """File runs under reference_data/fe/<engine>/, each with its record and the mesh error that remains.
+    """File runs under reference_data/fe/<engine>/ by the problem that they solved, each with its record and deck.
 
-    Example: tread-validate file-references results/fe/embedded/*.csv --convergence reference_data/fe/mesh
+    Example: tread-validate file-references results/liu2010/fe/embedded/*.csv --decks fe_inputs/liu2010
     """
     import pandas as pd
 
     from ..compare.scores.energy import energy_shares
-    from ..errors import InputError
-    from ..files import write_bytes
-    from ..provenance import sha256_file
-    from ..reference import fe_path
-    from ..yaml_text import read_mapping, write_yaml
+    from ..errors import CheckFailedError, InputError
+    from ..inp import deck_files
+    from ..reference import FeStore
+    from ..reference.filing import Run, drop_unused_blocks, file_run, read_run
 
-    errors = {}
-    for kind in ("rig", "belt") if convergence is not None else ():
-        errors[kind] = read_mapping(Path(str(convergence)) / f"{kind}.yaml")
-    filed = 0
+    store = FeStore(references)
+    runs = []
     for history in histories or []:
-        record_file = history.with_suffix(".yaml")
-        record = read_mapping(record_file)
-        digest = sha256_file(history)
-        if record.get("history_sha256") != digest:
-            raise InputError(record_file, "another checksum", f"history_sha256 {digest[:12]}... of {history.name}")
-        case_id = history.stem
-        record["case_id"] = case_id
-        study = errors.get(case_id.partition("-")[0])
-        if study is not None:
-            record["mesh_error"] = study["mesh_error"]
-            record["mesh_error_from"] = f"three meshes of {study['case_id']}, {study['method']}"
+        run = read_run(history, deck_files(decks, history.stem), engine)
         energies = history.with_name(f"{history.stem}_energies.csv")
         if energies.is_file():
-            record["energy"] = energy_shares(pd.read_csv(energies))
-        target = fe_path(references, engine, case_id)
-        face = history.with_name(f"{history.stem}_face.csv")
-        if face.is_file():
-            write_bytes(target.with_name(f"{case_id}_face.csv"), face.read_bytes())
-        write_bytes(target, history.read_bytes())
-        write_yaml(target.with_suffix(".yaml"), record)
-        filed += 1
-    typer.echo(f"{filed} runs of engine {engine} filed under {references / 'fe' / engine}")
+            record = {**run.record, "energy": energy_shares(pd.read_csv(energies))}
+            run = Run(run.history_file, record, run.problem, run.text_digest)
+        runs.append(run)
+    refused = []
+    for run in runs:
+        try:
+            typer.echo(f"filed: {file_run(store, run, study=study, replace=replace)}")
+        except InputError as error:
+            refused.append(str(error))
+            typer.echo(f"not filed: {error}", err=True)
+    drop_unused_blocks(store)
+    typer.echo(f"{len(runs) - len(refused)} of {len(runs)} runs filed under {store.root}")
+    if refused:
+        raise CheckFailedError(f"{len(refused)} runs differ from the filed ones beyond noise: look, then --replace")

@@ -24,11 +24,12 @@ def command(
     replace: Annotated[bool, typer.Option("--replace", help="replace a reference that is there already")] = False,
     store: Annotated[Path, typer.Option("--store", help="folder of reference data")] = Path("reference_data"),
 ) -> None:
-    """Check the forces of an ABAQUS run against its deck and file them under reference_data/fe/abaqus.
+    """Check the forces of an ABAQUS run against its deck and file them among the references of ABAQUS.
 
     Example: tread-validate import-abaqus forces.csv --deck fe_inputs/ID/ID.inp --user fe_inputs/ID/vfric.f
     """
     from ..errors import InputError
+    from ..inp import DeckFiles
     from ..reference.abaqus import Options, file_history, import_history
 
     for option, value, known in (
@@ -41,7 +42,7 @@ def command(
             raise InputError(option, value, "one of " + ", ".join(known))
     options = Options(force_unit, time_unit, clock, force_on, case_id, solver_version)  # type: ignore[arg-type]
     imported = import_history(source, deck, user, tangential=tangential, options=options)
-    path = file_history(imported, store, replace=replace)
+    path = file_history(imported, store, DeckFiles(deck, user), replace=replace)
     for check in imported.record["checks"]:
         typer.echo(check)
     typer.echo(f"filed as {path} with its record")

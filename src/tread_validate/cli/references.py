@@ -17,10 +17,10 @@ def command(
     Example: tread-validate references reference_data
     """
     from ..files import write_text
-    from ..reference import check_store, validate_package
+    from ..reference import FeStore, validate_package
 
     checked = [(name, "valid") for name in validate_package(folder)]
-    checked += check_store(folder)
+    checked += FeStore(folder).check()
     lines = "".join(f"{name}: {state}\n" for name, state in checked)
     if output is not None:
         write_text(output, lines)

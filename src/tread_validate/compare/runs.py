@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import InputError, one_line
-from ..files import read_text
 from ..history import History
-from ..provenance import deck_digest
-from ..reference import load_fe
+from ..inp import deck_files
+from ..reference import FeStore
+from ..spring.variants import code_digest
 from ..study import Case
 from .quantities import Scalars, scalars
 
@@ -22,16 +22,18 @@ class SourceRun:
     Attributes
     ----------
     status : str
-        ``current``, ``missing``, ``stale``, ``corrupt`` or ``no_contact``; only a current run has a history that
-        may be compared.
+        ``current``; ``other_code``: a reference made before its engine's code changed, compared and marked; ``stale``,
+        ``unbound`` (made nobody knows from what), ``missing``, ``corrupt`` or ``no_contact``: never compared.
     note : str
         Why it is not current.
     history, scalars : or None
-        Only where current.
+        Only where current or of other code.
     uncertainty : float, mapping or None
         Relative, of the forces; None where not known.
     digest : str
         SHA-256 of the history file, empty where there is none.
+    folder : str
+        Where a reference lies, relative to the reference folder; empty for other runs.
     """
 
     source: str
@@ -42,6 +44,7 @@ class SourceRun:
     scalars: Scalars | None = None
     uncertainty: float | Mapping[str, float] | None = None
     digest: str = ""
+    folder: str = ""
 
 
 Runs = Mapping[tuple[str, str], SourceRun]
@@ -63,34 +66,22 @@ def fe_runs(
 ) -> dict[tuple[str, str], SourceRun]:
     """Read every reference run of an engine and hold it against the deck of today."""
     source = f"fe:{engine}"
+    store = FeStore(reference_dir)
     runs: dict[tuple[str, str], SourceRun] = {}
     for case in cases:
-        reference = load_fe(reference_dir, engine, case.case_id, today_digest(decks_dir, case.case_id))
-        run = SourceRun(source, case.case_id, reference.status, reference.reason, digest=reference.digest)
-        if reference.status == "current" and reference.history is not None:
-            run = _with_scalars(source, case.case_id, reference.history, reference.digest, reference.uncertainty())
+        found = store.find(engine, case.case_id, deck_files(decks_dir, case.case_id))
+        folder = "" if found.folder is None else found.folder.relative_to(reference_dir).as_posix()
+        run = SourceRun(source, case.case_id, found.status, found.reason, digest=found.digest, folder=folder)
+        if found.history is not None:
+            stated = found.stated_error()
+            run = _with_scalars(run, found.history, store.mesh_errors.error(case, engine) if stated is None else stated)
         runs[source, case.case_id] = run
     return runs
 
 
-def today_digest(decks_dir: Path, case_id: str) -> str | None:
-    """Return the digest of a case's deck and friction routine as they lie in the deck folder, None without them."""
-    deck = decks_dir / case_id / f"{case_id}.inp"
-    user = decks_dir / case_id / "vfric.f"
-    if not deck.is_file():
-        return None
-    return deck_digest(read_text(deck), read_text(user) if user.is_file() else None)
-
-
 def engines(reference_dir: Path, first: str) -> tuple[str, ...]:
     """Return the engines to report: the study's own, then every other one with a run in the store."""
-    store = reference_dir / "fe"
-    others = sorted(
-        folder.name
-        for folder in (store.iterdir() if store.is_dir() else ())
-        if folder.is_dir() and folder.name != first and any(folder.glob("*.csv"))
-    )
-    return (first, *others)
+    return (first, *(engine for engine in FeStore(reference_dir).engines() if engine != first))
 
 
 def _spring_run(source: str, case: Case, path: Path) -> SourceRun:
@@ -100,20 +91,26 @@ def _spring_run(source: str, case: Case, path: Path) -> SourceRun:
         history = History.read_csv(path)
     except InputError as error:
         return SourceRun(source, case.case_id, "corrupt", one_line(f"{path.name}: {error.found}"))
-    digest = history.digest()
-    made_from = history.provenance.get("case_digest")
-    today = case.digest("spring")
-    if made_from is not None and made_from != today:
-        note = f"made from other inputs ({made_from[:12]}, today {today[:12]})"
-        return SourceRun(source, case.case_id, "stale", note, digest=digest)
-    return _with_scalars(source, case.case_id, history, digest, None)
+    status, note = _binding(history, case, source.partition(":")[2])
+    run = SourceRun(source, case.case_id, status, note, digest=history.digest())
+    return run if status != "current" else _with_scalars(run, history, None)
 
 
-def _with_scalars(
-    source: str, case_id: str, history: History, digest: str, uncertainty: float | Mapping[str, float] | None
-) -> SourceRun:
+def _binding(history: History, case: Case, variant: str) -> tuple[str, str]:
+    """Return whether a history is of today's case and code: a status, and why it is not current."""
+    today = {"case_digest": case.digest("spring"), "code": code_digest(variant)}
+    for key, what in (("case_digest", "inputs"), ("code", "code")):
+        found = history.provenance.get(key)
+        if found is None:
+            return "unbound", f"no {key} in its header: nobody knows what it was made from"
+        if found != today[key]:
+            return "stale", f"made from other {what} ({found[:12]}, today {today[key][:12]})"
+    return "current", ""
+
+
+def _with_scalars(run: SourceRun, history: History, uncertainty: float | Mapping[str, float] | None) -> SourceRun:
     try:
         values = scalars(history)
     except InputError as error:
-        return SourceRun(source, case_id, "no_contact", one_line(str(error)), digest=digest)
-    return SourceRun(source, case_id, "current", "", history, values, uncertainty, digest)
+        return replace(run, status="no_contact", note=one_line(str(error)))
+    return replace(run, history=history, scalars=values, uncertainty=uncertainty)

@@ -12,7 +12,9 @@ import numba
 
 from ..errors import InputError
 from ..files import read_text
-from ..provenance import commit, deck_digest, sha256_text, version
+from ..inp import problem_of
+from ..provenance import commit, sha256_text, version
+from ..source_code import code_digest
 from .explicit import Simulation
 from .frames import FrameWriter
 from .model import Model, read_model
@@ -83,6 +85,8 @@ def run_deck(
         "producer": f"tread-validate fe ({ENGINE})",
         "version": version(),
         "commit": commit(),
+        "engine": ENGINE,
+        "code": record["code"],
         "deck_sha256": record["deck_sha256"],
         "deck_digest": record["deck_digest"],
     }
@@ -99,7 +103,8 @@ def _record(
         "engine": ENGINE,
         "version": version(),
         "commit": commit(),
-        "deck_digest": deck_digest(model.deck.text, used),
+        "code": code_digest("fe"),
+        "deck_digest": problem_of(model.deck, used).digest,
         "deck_sha256": sha256_text(model.deck.text),
         "user_sha256": sha256_text(used) if used is not None else None,
         "elements": elements,

@@ -2,10 +2,10 @@
 
 from .deck import Block, DataLine, Deck, Lines, label
 from .expand import expand, expanded_lines
-from .problem import Difference, Part, Problem, differences, problem_of, problem_of_files
+from .problem import DeckFiles, Difference, Part, Problem, agree, deck_files, differences, problem_of
 from .reader import read_deck
 
 __all__ = [
-    "Block", "DataLine", "Deck", "Difference", "Lines", "Part", "Problem", "differences", "expand", "expanded_lines",
-    "label", "problem_of", "problem_of_files", "read_deck",
+    "Block", "DataLine", "Deck", "DeckFiles", "Difference", "Lines", "Part", "Problem", "agree", "deck_files",
+    "differences", "expand", "expanded_lines", "label", "problem_of", "read_deck",
 ]  # fmt: skip

@@ -18,15 +18,22 @@ from ..files import read_text
 from .deck import Deck
 from .reader import read_deck
 
-RELATIVE_TOLERANCE = 1e-6
-"""Numbers of two decks that agree to this are equal; far below any mesh error. In a table of `TABLE_LINES` lines or
-more it is a share of the column's largest number, so that a coordinate near zero is held to the body's size."""
+RELATIVE_TOLERANCE = 1e-5
+"""Single numbers of two decks that agree to this are equal: far below any mesh error."""
+COLUMN_TOLERANCE = 1e-6
+"""In a table of `TABLE_LINES` lines or more numbers agree to this share of their column's largest, which is more than
+nothing where a component passes through zero."""
+COORDINATE_TOLERANCE = 1.5e-5
+"""mm: coordinates agree to one and a half of the last digit that decks have. A share of a coordinate would not do: the
+interference is a small difference of large ones."""
+COORDINATES = ("*NODE", "*SURFACE")  # keywords whose lines are coordinates
 TABLE_LINES = 20
 NOT_THE_PROBLEM = frozenset({"HEADING", "INCLUDE", "PARAMETER", "PREPRINT"})
 FORTRAN_COMMENTS = ("c", "C", "*", "!")
 USER_ROUTINE = "*USER SUBROUTINE"
 """Stands above the lines of the friction routine, which belongs to the problem as the deck does."""
 
+INCLUDED = re.compile(r"^\*include\s*,\s*input\s*=\s*(.+)$", re.IGNORECASE | re.MULTILINE)
 NUMBER = re.compile(r"(?<![A-Za-z_0-9.])[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
@@ -53,6 +60,11 @@ class Part:
         """SHA-256 of the lines, in hex."""
         return hashlib.sha256("\n".join(self.lines).encode()).hexdigest()
 
+    @property
+    def count(self) -> int:
+        """Number of lines."""
+        return len(self.lines)
+
     def place(self, line: int) -> str:
         """Return where a line stands (0: the first below the keyword; -1: the keyword)."""
         if self.places:
@@ -73,10 +85,11 @@ class Problem:
 
     @cached_property
     def structure(self) -> str:
-        """SHA-256 of the problem with every number left out, in hex: decks that could be equal agree in it."""
+        """SHA-256 of the problem without its numbers, in hex (of tables: their size); equal problems agree in it."""
         total = hashlib.sha256()
         for part in self.parts:
-            for line in (part.keyword, *part.lines):
+            total.update(f"{part.count} ".encode())
+            for line in (part.keyword, *(part.lines if part.count < TABLE_LINES else part.lines[:1])):
                 total.update(NUMBER.sub("#", line).encode() + b"\n")
         return total.hexdigest()
 
@@ -135,13 +148,18 @@ def problem_of(deck: Deck | Path | str, user: str | None = None) -> Problem:
     return Problem(tuple(parts))
 
 
-def problem_of_files(deck: Path, user: Path | None) -> Problem:
-    """Return the problem of a deck file and, where there is one, its friction routine's file."""
-    return problem_of(deck, read_text(user) if user is not None and user.is_file() else None)
+def agree(filed: Problem, today: Problem) -> bool:
+    """Whether two problems are the same to the tolerances above; short parts are looked at before tables."""
+    if filed.digest == today.digest:
+        return True
+    if len(filed.parts) != len(today.parts):
+        return False
+    pairs = sorted(zip(filed.parts, today.parts, strict=True), key=lambda pair: pair[1].count)
+    return all(next(_of_parts(old, new), None) is None for old, new in pairs)
 
 
-def differences(filed: Problem, today: Problem, tolerance: float = RELATIVE_TOLERANCE) -> Iterator[Difference]:
-    """Yield the lines in which two problems differ beyond the tolerance, in the order of the deck."""
+def differences(filed: Problem, today: Problem) -> Iterator[Difference]:
+    """Yield the lines in which two problems differ beyond the tolerances, in the order of the deck."""
     if filed.digest == today.digest:
         return
     for old, new in zip_longest(filed.parts, today.parts):
@@ -152,43 +170,45 @@ def differences(filed: Problem, today: Problem, tolerance: float = RELATIVE_TOLE
                 place, "nothing" if old is None else old.keyword, "nothing" if new is None else new.keyword
             )
             return
-        found = _line_difference(old.keyword, new.keyword, tolerance, ())
-        if found is not None:
-            yield Difference(new.place(-1), *found)
-            if NUMBER.sub("#", old.keyword) != NUMBER.sub("#", new.keyword):
-                return
-        if old.digest != new.digest:
-            yield from _between(old, new, tolerance)
+        yield from _of_parts(old, new)
+        if NUMBER.sub("#", old.keyword) != NUMBER.sub("#", new.keyword):
+            return  # what follows is shifted
 
 
-def _between(old: Part, new: Part, tolerance: float) -> Iterator[Difference]:
-    if len(old.lines) != len(new.lines):
-        yield Difference(new.place(-1), f"{len(old.lines)} lines", f"{len(new.lines)} lines")
+def _of_parts(old: Part, new: Part) -> Iterator[Difference]:
+    found = _line_difference(old.keyword, new.keyword, ())
+    if found is not None:
+        yield Difference(new.place(-1), *found)
+    if old.digest == new.digest:
         return
-    scales = _scales(old.lines) if len(old.lines) >= TABLE_LINES else ()
+    if old.count != new.count:
+        yield Difference(new.place(-1), f"{old.count} lines", f"{new.count} lines")
+        return
+    allowed = _allowed(new)
     for index, (a, b) in enumerate(zip(old.lines, new.lines, strict=True)):
         if a != b:
-            found = _line_difference(a, b, tolerance, scales)
+            found = _line_difference(a, b, allowed)
             if found is not None:
                 yield Difference(new.place(index), *found)
 
 
-def _scales(lines: Sequence[str]) -> tuple[float, ...]:
-    """Return the largest number of each column."""
-    largest: list[float] = []
-    for line in lines:
+def _allowed(part: Part) -> tuple[float, ...]:
+    """Return by how much the numbers of each column may differ; empty where each is held to its own size."""
+    columns: list[float] = []
+    coordinates = part.keyword.split(",", maxsplit=1)[0] in COORDINATES
+    if not coordinates and part.count < TABLE_LINES:
+        return ()
+    for line in part.lines:
         for column, text in enumerate(NUMBER.findall(line)):
-            value = abs(_value(text))
-            if column == len(largest):
-                largest.append(value)
-            elif value > largest[column]:
-                largest[column] = value
-    return tuple(largest)
+            value = COORDINATE_TOLERANCE if coordinates else COLUMN_TOLERANCE * abs(_value(text))
+            if column == len(columns):
+                columns.append(value)
+            elif value > columns[column]:
+                columns[column] = value
+    return tuple(columns)
 
 
-def _line_difference(
-    filed: str, today: str, tolerance: float, scales: Sequence[float]
-) -> tuple[str, str, float | None] | None:
+def _line_difference(filed: str, today: str, allowed: Sequence[float]) -> tuple[str, str, float | None] | None:
     """Return what differs in a line (texts, relative distance), None where it agrees."""
     if filed == today:
         return None
@@ -201,12 +221,54 @@ def _line_difference(
         first, second = _value(a), _value(b)
         apart = abs(first - second)
         scale = max(abs(first), abs(second))
-        whole = a.lstrip("+-").isdigit() and b.lstrip("+-").isdigit()  # labels and counts agree exactly or not at all
-        allowed = 0.0 if whole else tolerance * max(scale, scales[column] if column < len(scales) else 0.0)
-        if apart > allowed and (worst is None or worst[2] is None or apart / scale > worst[2]):
+        room = allowed[column] if column < len(allowed) else RELATIVE_TOLERANCE * scale
+        if a.lstrip("+-").isdigit() and b.lstrip("+-").isdigit():
+            room = 0.0  # labels and counts agree exactly or not at all
+        if apart > room and (worst is None or worst[2] is None or apart / scale > worst[2]):
             worst = a, b, apart / scale
     return worst
 
 
 def _value(text: str) -> float:
     return float(text.upper().replace("D", "E"))
+
+
+@dataclass(frozen=True)
+class DeckFiles:
+    """A deck and its friction routine as files, read when first asked for."""
+
+    deck: Path
+    user: Path | None = None
+
+    @cached_property
+    def problem(self) -> Problem:
+        """The problem; raises `InputError` for a deck that cannot be read."""
+        return problem_of(self.deck, self._user)
+
+    @cached_property
+    def text_digest(self) -> str:
+        """SHA-256 of all lines but comments, in hex: equal texts pose one problem, and this is quick to find out."""
+        total = hashlib.sha256()
+        waiting = [self.deck]
+        seen: set[Path] = set()
+        while waiting:
+            file = waiting.pop()
+            if file in seen or not file.is_file():
+                continue
+            seen.add(file)
+            text = read_text(file)
+            for line in text.splitlines():
+                if not line.startswith("**"):
+                    total.update(line.rstrip().encode() + b"\n")
+            waiting += [self.deck.parent / name.strip('" ') for name in INCLUDED.findall(text)]
+        total.update(b"\0" + (self._user or "").encode())
+        return total.hexdigest()
+
+    @cached_property
+    def _user(self) -> str | None:
+        return read_text(self.user) if self.user is not None and self.user.is_file() else None
+
+
+def deck_files(folder: Path, case_id: str) -> DeckFiles:
+    """Return the files of a case's deck in a folder of decks, ``<case_id>/<case_id>.inp`` and ``vfric.f``."""
+    return DeckFiles(folder / case_id / f"{case_id}.inp", folder / case_id / "vfric.f")

@@ -6,14 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from tread_validate.inp import differences, problem_of
+from tread_validate.inp import agree, differences, problem_of
 
 NODES = [f"{i + 1}, {0.5 * i:.5f}, {1e-3 * (i % 3):.5f}, 10.0" for i in range(30)]
 DECK = (
     "*HEADING\ncase one\n** made today\n*NODE, NSET=ALL\n"
     + "\n".join(NODES)
     + "\n*MATERIAL, NAME=COMPOUND\n*ELASTIC\n5.25, 0.47\n"
-    "*STEP, NAME=pass, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.0158\n*END STEP\n"
+    "*AMPLITUDE, NAME=A\n"
+    + "".join(f"{i}.0, {4.0 * (i % 2)}\n" for i in range(24))
+    + "*STEP, NAME=pass, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.0158\n*END STEP\n"
 )
 ROUTINE = "c     friction\n      subroutine vfric\n      x = 0.9d0\n      end\n"
 
@@ -53,20 +55,23 @@ def test_a_deck_in_one_file_and_in_several_pose_one_problem(tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("old", "new", "equal"),
     [
-        ("5.25, 0.47", "5.250002, 0.47", True),  # 4e-7 apart
-        ("5.25, 0.47", "5.25002, 0.47", False),  # 4e-6 apart
-        ("2, 0.50000, 0.00100", "2, 0.50001, 0.00100", True),  # 1e-5 in a table of coordinates up to 14.5
+        ("5.25, 0.47", "5.25002, 0.47", True),  # 4e-6 apart
+        ("5.25, 0.47", "5.2502, 0.47", False),  # 4e-5 apart
+        ("2, 0.50000, 0.00100", "2, 0.50001, 0.00100", True),  # mm: the last digit of a coordinate
         ("2, 0.50000, 0.00100", "2, 0.50002, 0.00100", False),
         ("2, 0.50000,", "3, 0.50000,", False),  # a label
+        ("2.0, 0.0\n", "2.0, 3e-6\n", True),  # a table's column that reaches 4
+        ("2.0, 0.0\n", "2.0, 5e-6\n", False),
         ("5.25,", "5.25,1.0,", False),
     ],
 )
-def test_numbers_agree_to_a_millionth(old: str, new: str, equal: bool, tmp_path: Path) -> None:
-    """Relative for single numbers, of the column's largest in a table; labels exactly."""
+def test_numbers_agree_to_the_stated_tolerances(old: str, new: str, equal: bool, tmp_path: Path) -> None:
+    """Relative for single numbers, of the column's largest in a table, absolute for coordinates; labels exactly."""
     a = problem_of(deck_of(tmp_path, DECK))
     b = problem_of(deck_of(tmp_path, DECK.replace(old, new), "b.inp"))
     assert a.digest != b.digest
     assert (not list(differences(a, b))) is equal
+    assert agree(a, b) is equal
 
 
 def test_the_differing_line_is_named_with_both_numbers_and_their_distance(tmp_path: Path) -> None:

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...errors import InputError
 from ...files import read_text
-from ...inp import Deck, read_deck
-from ...provenance import deck_digest, sha256_file
+from ...inp import Deck, problem_of, read_deck
+from ...provenance import sha256_file
 
 
 @dataclass(frozen=True)
@@ -59,13 +59,12 @@ def deck_facts(deck: Path | str, user: Path | str | None = None) -> DeckFacts:
         A deck without heading, steps, elastic modulus or elements.
     """
     model = read_deck(deck)
-    text = read_text(deck)
     return DeckFacts(
         case_id=_heading(model),
         durations=_durations(model),
         plan_area=_plan_area(model),
         modulus=_modulus(model),
-        digest=deck_digest(text, None if user is None else read_text(user)),
+        digest=problem_of(model, None if user is None else read_text(user)).digest,
         deck_sha256=sha256_file(deck),
         user_sha256="" if user is None else sha256_file(user),
     )

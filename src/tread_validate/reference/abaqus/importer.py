@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -13,8 +14,11 @@ from numpy.typing import NDArray
 from ... import provenance
 from ...errors import InputError
 from ...history import History
+from ...inp import DeckFiles
+from ...source_code import code_digest
+from ..fe_store import FeStore
+from ..filing import file_run, read_run
 from ...yaml_text import read_mapping, write_yaml
-from ..fe_store import fe_path
 from .deck_facts import DeckFacts, deck_facts
 from .tables import Table, read_table
 
@@ -113,6 +117,8 @@ def import_history(
         "source_files": [path.name for path in sources],
         "source_sha256": [provenance.sha256_file(path) for path in sources],
         "layout": table.layout,
+        "commit": provenance.commit(),
+        "code": code_digest("abaqus"),
         "deck_digest": facts.digest,
         "deck_sha256": facts.deck_sha256,
         "user_sha256": facts.user_sha256,
@@ -129,6 +135,8 @@ def import_history(
             "case_id": facts.case_id,
             "producer": f"fe/{engine}",
             "version": record["version"],
+            "engine": engine,
+            "code": record["code"],
             "deck_digest": facts.digest,
             "slipping": record["slipping"],
         },
@@ -136,19 +144,22 @@ def import_history(
     return Imported(history, record)
 
 
-def file_history(imported: Imported, folder: Path | str, *, replace: bool = False) -> Path:
-    """File the history and its record under ``<folder>/fe/<engine>``; the record comes last.
+def file_history(imported: Imported, folder: Path | str, deck: DeckFiles, *, replace: bool = False) -> Path:
+    """File the history, its record and its deck in the store of the reference folder and return the run's folder.
 
     Raises
     ------
     InputError
-        There is one already and `replace` is not set.
+        A run of the same problem is there already and `replace` is not set.
     """
-    path = fe_path(folder, imported.record["engine"], imported.record["case_id"])
-    if path.exists() and not replace:
-        raise InputError(path, "a reference that is there already", "none, or --replace")
-    write(imported, path)
-    return path
+    store = FeStore(folder)
+    there = store.equal_entry(str(imported.record["engine"]), deck.problem)
+    if there is not None and not replace:
+        raise InputError(there.folder, "a reference that is there already", "none, or --replace")
+    with tempfile.TemporaryDirectory() as scratch:
+        history = Path(scratch) / f"{imported.record['case_id']}.csv"
+        write(imported, history)
+        return file_run(store, read_run(history, deck), study="", replace=replace)
 
 
 def write(imported: Imported, path: Path | str) -> None:

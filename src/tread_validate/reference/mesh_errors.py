@@ -1,0 +1,71 @@
+"""What the mesh of a reference run is worth: mesh studies, each for one engine, block, path kind and element size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..study import Case
+from ..yaml_text import read_mapping
+
+SCHEMA = 2
+MESH_KEYS = ("element_size_mm", "layers", "refinement", "hourglass", "bulk_viscosity")
+
+
+def applies_to(case: Case, engine: str) -> dict[str, Any]:
+    """Return what a mesh study must have in common with a run to say anything about it.
+
+    Engine, kind of path, the block as the study gives it (less what is left at its default) and the mesh.
+    """
+    deck = case.deck.model_dump(mode="json")
+    return {
+        "engine": engine,
+        "path_kind": case.path.kind,
+        "block": case.block.model_dump(mode="json", exclude_defaults=True, exclude={"origin", "source"}),
+        "mesh": {key: deck[key] for key in MESH_KEYS},
+    }
+
+
+class MeshErrors:
+    """The mesh studies of a folder, read once."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    @cached_property
+    def studies(self) -> tuple[Mapping[str, Any], ...]:
+        """Every study; raises `InputError` for a file that is none, or of an older format."""
+        return tuple(read_mesh_study(path) for path in sorted(self.folder.glob("*.yaml")))
+
+    def of(self, case: Case, engine: str) -> Mapping[str, Any] | None:
+        """Return the study that applies to a case's runs by an engine, None where none does."""
+        wanted = applies_to(case, engine)
+        return next((study for study in self.studies if study["applies_to"] == wanted), None)
+
+    def error(self, case: Case, engine: str) -> dict[str, float] | None:
+        """Return the relative error that remains, by quantity; None where no mesh study applies."""
+        study = self.of(case, engine)
+        if study is None:
+            return None
+        return {str(key): float(value) for key, value in study["mesh_error"].items() if is_error(value)} or None
+
+
+def read_mesh_study(path: Path) -> Mapping[str, Any]:
+    """Read a mesh study; raises `InputError` where it is none."""
+    data = read_mapping(path)
+    if data.get("schema") != SCHEMA:
+        words = f"schema {SCHEMA} (tread-validate migrate-references, or make it anew)"
+        raise InputError(path, f"schema {data.get('schema', 'none')}", words)
+    for key in ("applies_to", "mesh_error", "quantities"):
+        if not isinstance(data.get(key), dict):
+            raise InputError(f"{path}: {key}", type(data.get(key)).__name__, "a mapping, as `mesh-error` writes it")
+    return data
+
+
+def is_error(value: Any) -> bool:
+    """Whether a value is a relative error: a finite number, 0 or more."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and value >= 0
