@@ -93,6 +93,11 @@ def peak(case: Case) -> float:
     return 1e6 * case.interference * (1.0 + 0.03 * case.speed)
 
 
+def folder_of(case: Case) -> str:
+    """Return where the made-up reference of a case lies, below the reference folder."""
+    return f"fe/embedded/{case.case_id}-0"
+
+
 def state(case: Case) -> str:
     """Return the made-up state of the reference of a case."""
     return {STALE: "stale", MISSING: "missing"}.get(case.case_id, "current")
@@ -106,10 +111,11 @@ def _histories(places: Fabricated, cases: tuple[Case, ...]) -> None:
     time = np.linspace(0.0, 0.01, 701)
     phase = np.pi * time / time[-1]
     for case in cases:
-        for factor, folder in ((1.0, places.reference / "embedded"), (0.9, places.spring / "paper")):
+        filed = places.reference / folder_of(case) / "history.csv"
+        for factor, file in ((1.0, filed), (0.9, places.spring / "paper" / f"{case.case_id}.csv")):
             normal = factor * peak(case) * np.sin(phase)
             history = History(time, normal, 0.2 * factor * peak(case) * np.sin(2.0 * phase), np.zeros_like(time))
-            history.write_csv(folder / f"{case.case_id}.csv")
+            history.write_csv(file)
 
 
 def _frames(cases: tuple[Case, ...]) -> dict[str, pd.DataFrame]:
@@ -173,6 +179,7 @@ def _peaks(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "speed_m_s": case.speed,
                     "peak_normal_force_N": force,
                     "status": status,
+                    "folder": folder_of(case) if source == REFERENCE else "",
                     "assumed": assumed[case.case_id],
                 }
             )

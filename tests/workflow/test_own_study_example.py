@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from tread_validate.cli.app import run
-from tread_validate.reference import load_fe
+from tread_validate.inp import deck_files
+from tread_validate.reference import FeStore
 from tread_validate.study import load_study
 
 CASE = "tyre-60c-0p2mm-22p2mps-free"
@@ -48,11 +49,7 @@ def test_decks_of_the_example_are_clean(made):
 
 
 def test_imported_forces_are_the_reference_of_todays_deck(made):
-    from tread_validate.provenance import deck_digest
-
-    deck = made / "fe_inputs" / CASE
-    digest = deck_digest((deck / f"{CASE}.inp").read_text(), (deck / "vfric.f").read_text())
-    reference = load_fe(made / "store", "abaqus", CASE, digest)
+    reference = FeStore(made / "store").find("abaqus", CASE, deck_files(made / "fe_inputs", CASE))
     assert reference.status == "current", reference.reason
     assert reference.record["imported"] is True
 
@@ -61,7 +58,8 @@ def test_stimulus_of_the_example_has_the_mean_of_its_blocks(made, example):
     """The means of summary.csv: lines at 0 Hz, and impulse times block rate, equal to the nine digits written."""
     arguments = ["--case", CASE, "--pitch", str(example / "pitch.yaml")]
     hub = ["--transfer-function", str(example / "data" / "synthetic_hub.csv")]
-    own = ["--history", f"abaqus={made / 'store' / 'fe' / 'abaqus' / CASE}.csv"]
+    (filed,) = (made / "store" / "fe" / "abaqus").glob(f"{CASE}-*/history.csv")
+    own = ["--history", f"abaqus={filed}"]
     out = made / "stimulus"
     assert run(["stimulus", str(example / "study.yaml"), *arguments, *hub, *own, "-o", str(out)]) == 0
     with (out / "summary.csv").open() as stream:

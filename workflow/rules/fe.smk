@@ -43,17 +43,18 @@ rule fe:
 rule reference:
     input:
         histories=stale_histories,
-        convergence=[f"{MESH_ERRORS}/{kind}.yaml" for kind in MESH_CASES],
+        decks=rules.decks.output.inp,
     log:
         "logs/reference.log",
     conda:
         ENVIRONMENT
     params:
         engine=ENGINE,
-        references=lambda wildcards, input: Path(input.convergence[0]).parents[2],
-        mesh=lambda wildcards, input: Path(input.convergence[0]).parent,
+        study=study.model.name,
+        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        references=REFERENCES,
     message:
         "Filing the reference runs"
     shell:
-        "tread-validate file-references {input.histories} --engine {params.engine} --convergence {params.mesh} "
-        "--references {params.references} > {log} 2>&1"
+        "tread-validate file-references {input.histories} --engine {params.engine} --decks {params.decks} "
+        "--study {params.study} --references {params.references} > {log} 2>&1"

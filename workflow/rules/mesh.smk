@@ -41,7 +41,8 @@ rule mesh_run:
 
 rule mesh_error:
     input:
-        lambda wildcards: expand(
+        study=STUDY,
+        runs=lambda wildcards: expand(
             f"{RESULTS}/mesh/{{size}}/{{case}}.csv",
             size=MESH_LAYERS,
             case=MESH_CASES[wildcards.kind],
@@ -54,12 +55,10 @@ rule mesh_error:
         ENVIRONMENT
     params:
         sizes=" ".join(f"--size {size.replace('p', '.')}" for size in MESH_LAYERS),
-        used=study.model.deck.element_size_mm,
     message:
         "Extrapolating the {wildcards.kind} case to element size 0"
     shell:
-        "tread-validate mesh-error {input} {params.sizes} --used {params.used} --kind {wildcards.kind} "
-        "-o {output} > {log} 2>&1"
+        "tread-validate mesh-error {input.study} {input.runs} {params.sizes} -o {output} > {log} 2>&1"
 
 
 # The result is copied over the committed one, which `make reference` reads and never makes by itself.

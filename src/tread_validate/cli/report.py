@@ -14,9 +14,7 @@ def command(
     spring: Annotated[Path, typer.Option(help="folder of spring histories, <variant>/<case>.csv")] = Path(
         "results/spring"
     ),
-    references: Annotated[
-        Path, typer.Option(help="the reference data package; FE histories in its fe/<engine>/")
-    ] = Path("reference_data"),
+    references: Annotated[Path, typer.Option(help="the reference data package")] = Path("reference_data"),
     decks: Annotated[Path, typer.Option(help="folder of decks, <case>/mesh.vtu")] = Path("fe_inputs"),
     out: Annotated[Path, typer.Option("-o", "--out", help="where the report goes")] = Path("reports"),
     delta: Annotated[
@@ -36,5 +34,5 @@ def command(
 
     delta = delta or (tables / "delta.csv" if (tables / "delta.csv").is_file() else None)
     ladder = ladder or references / "ladder"
-    build_report(study, tables, spring, references / "fe", decks, out, baseline_delta=delta, ladder_dir=ladder)
+    build_report(study, tables, spring, references, decks, out, baseline_delta=delta, ladder_dir=ladder)
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

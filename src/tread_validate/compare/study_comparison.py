@@ -113,7 +113,7 @@ def _metric_rows(
                 reference, predicted = runs[reference_source, case.case_id], runs[predicted_source, case.case_id]
                 assumed = "; ".join(case.assumed())
                 if reference.history is not None and predicted.history is not None:
-                    rows += compare(
+                    own = compare(
                         reference.history,
                         predicted.history,
                         case_id=case.case_id,
@@ -122,6 +122,7 @@ def _metric_rows(
                         uncertainty=reference.uncertainty,
                         assumed=assumed,
                     )
+                    rows += [row.of_run(reference.status, reference.note) for row in own]
                     continue
                 bad = reference if reference.history is None else predicted
                 rows += empty_rows(

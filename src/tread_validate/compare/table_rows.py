@@ -38,6 +38,7 @@ def peak_row(case: Case, run: SourceRun) -> PeakRow:
         status=run.status,
         note=run.note,
         history_sha256=run.digest,
+        folder=run.folder,
         assumed="; ".join(case.assumed()),
     )
 

@@ -12,10 +12,9 @@ import numpy as np
 
 from ..compare import MetricRow, compare
 from ..compare.runs import Runs
-from ..errors import InputError
+from ..reference import FeStore
 from ..spring import run
 from ..study import Case
-from ..yaml_text import read_mapping
 
 RUNGS = ("paper", "bonded_theory", "bonded", "coupled_coarse", "coupled")
 GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
@@ -220,17 +219,19 @@ COST_GROWTH = 4.0
 def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
     """Return what the finite element runs of the mesh study cost and how far they are from their limit.
 
-    `references` holds fe/mesh/<kind>.yaml, with forces on several meshes and their extrapolation, and the records of
-    the runs in use. Times are estimated: the least time per element and increment of any record (the one least
-    disturbed by other work) times elements and increments of the case's run, scaled to the other sizes. The rows'
-    columns are `MESH_COLUMNS`.
+    `references` is the reference data package, with mesh studies (forces on several meshes and their extrapolation)
+    and the records of the runs in use. Times are estimated: the least time per element and increment of any record
+    (the one least disturbed by other work) times elements and increments of the case's run, scaled to the other sizes.
+    The rows' columns are `MESH_COLUMNS`.
     """
-    records = [_record(path) for path in sorted((references / "fe" / engine).glob("*.yaml"))]
+    store = FeStore(references)
+    records = [entry.record for entry in store.entries(engine)]
     costs = [1e-6 * float(record["us_per_element_step"]) for record in records if "us_per_element_step" in record]
     by_case = {record.get("case_id"): record for record in records}
     rows = []
-    for path in sorted((references / "fe" / "mesh").glob("*.yaml")):
-        study = _record(path)
+    for study in store.mesh_errors.studies:
+        if study["applies_to"]["engine"] != engine:
+            continue
         run_in_use = by_case.get(study.get("case_id"), {})
         seconds = None
         if costs and {"elements", "increments"} <= set(run_in_use):
@@ -248,10 +249,3 @@ def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
             )  # fmt: skip
             rows.append(dict(zip(MESH_COLUMNS, entries, strict=True)))
     return rows
-
-
-def _record(path: Path) -> Mapping[str, Any]:
-    try:
-        return read_mapping(path)
-    except InputError:
-        return {}

@@ -241,6 +241,8 @@ class FeStore:
             return Entry(folder, {}, f"record.yaml: no {missing[0]} (an older format: file the run again)")
         if record["engine"] != engine:
             return Entry(folder, record, f"record.yaml: engine {record['engine']}, but the folder is {engine}'s")
+        if not _names(folder, record["case_id"]):
+            return Entry(folder, record, f"record.yaml: case {record['case_id']}, but the folder is {folder.name}")
         return Entry(folder, record)
 
     def _bad(self, entry: Entry, case_id: str, engine: str, status: Status, reason: str) -> Reference:

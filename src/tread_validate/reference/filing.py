@@ -46,6 +46,27 @@ class Run:
     text_digest: str
 
 
+def read_record(history_file: Path) -> Mapping[str, Any]:
+    """Return the record beside a run's history.
+
+    Raises
+    ------
+    InputError
+        The record does not say what the run was made from, or is another history's.
+    """
+    record_file = history_file.with_suffix(".yaml")
+    record = read_mapping(record_file)
+    for key in ("case_id", "engine", "deck_digest", "history_sha256"):
+        if not isinstance(record.get(key), str):
+            raise InputError(
+                f"{record_file}: {key}", record.get(key, "nothing"), "a record that binds the run (run it again)"
+            )
+    digest = sha256_file(history_file)
+    if record["history_sha256"] != digest:
+        raise InputError(record_file, "another checksum", f"history_sha256 {digest[:12]}... of {history_file.name}")
+    return record
+
+
 def read_run(history_file: Path, deck: DeckFiles, engine: str | None = None) -> Run:
     """Read a run and its record and hold them against the deck; raises `InputError` where they do not belong together.
 
@@ -59,18 +80,10 @@ def read_run(history_file: Path, deck: DeckFiles, engine: str | None = None) -> 
         Only checked: the record says whose run it is.
     """
     record_file = history_file.with_suffix(".yaml")
-    record = read_mapping(record_file)
-    for key in ("case_id", "engine", "deck_digest", "history_sha256"):
-        if not isinstance(record.get(key), str):
-            raise InputError(
-                f"{record_file}: {key}", record.get(key, "nothing"), "a record that binds the run (run it again)"
-            )
+    record = read_record(history_file)
     check_engine(record["engine"])
     if engine is not None and engine != record["engine"]:
         raise InputError(f"{record_file}: engine", record["engine"], f"{engine}, as --engine says")
-    digest = sha256_file(history_file)
-    if record["history_sha256"] != digest:
-        raise InputError(record_file, "another checksum", f"history_sha256 {digest[:12]}... of {history_file.name}")
     if deck.problem.digest != record["deck_digest"]:
         found = f"digest {deck.problem.digest[:12]}"
         raise InputError(

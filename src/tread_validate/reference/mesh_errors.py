@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..source_code import UNKNOWN
 from ..study import Case
 from ..yaml_text import read_mapping
 
@@ -52,6 +53,42 @@ class MeshErrors:
         if study is None:
             return None
         return {str(key): float(value) for key, value in study["mesh_error"].items() if is_error(value)} or None
+
+
+def document(
+    case: Case,
+    study: str,
+    records: Sequence[Mapping[str, Any]],
+    sizes: Sequence[float],
+    numbers: Mapping[str, Mapping[str, Any]],
+) -> dict[str, Any]:
+    """Return a mesh study as it is written.
+
+    Parameters
+    ----------
+    case : Case
+        The case that was run on every mesh; its deck settings are those in use.
+    study : str
+        Name of its study.
+    records : sequence of mapping
+        Of the runs, coarse to fine, all of one engine and code.
+    sizes : sequence of float, mm
+    numbers : mapping
+        ``mesh_error`` and ``quantities`` of `compare.scores.convergence.mesh_study`.
+    """
+    return {
+        "schema": SCHEMA,
+        "case_id": case.case_id,
+        "study": study,
+        "applies_to": applies_to(case, str(records[0]["engine"])),
+        "code": str(records[0].get("code", UNKNOWN)),
+        "element_size_mm": case.deck.element_size_mm,
+        "method": "Richardson extrapolation from three meshes (doi:10.1115/1.2960953); errors are relative",
+        "sizes_mm": [float(size) for size in sizes],
+        "deck_digests": [record["deck_digest"] for record in records],
+        "history_sha256": [record["history_sha256"] for record in records],
+        **{key: dict(value) for key, value in numbers.items()},
+    }
 
 
 def read_mesh_study(path: Path) -> Mapping[str, Any]:

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-
 from ..errors import InputError
 from ..files import read_text
 from ..inp import DeckFiles, deck_files

@@ -62,8 +62,10 @@ def build_report(
         The study file, for title, notes, materials and geometry.
     tables_dir : path
         The comparison's tables (``cases.csv``, ``errors.csv``, ...); the report shows them and computes no metric.
-    spring_dir, reference_dir : path
-        Histories as ``<variant>/<case_id>.csv`` and ``<engine>/<case_id>.csv``.
+    spring_dir : path
+        Histories as ``<variant>/<case_id>.csv``.
+    reference_dir : path
+        The reference data package.
     decks_dir : path
         Decks as ``<case_id>/mesh.vtu``, for the mesh sketch; may be missing.
     baseline_delta : path, optional
@@ -98,7 +100,7 @@ def compose(study_path: Path, places: Places) -> Report:
     tables = read_tables(places.tables)
     marks = Marks(tables.assumed)
     views = case_views(tables.cases)
-    rig = rig_peaks(places.reference.parent, study.cases())
+    rig = rig_peaks(places.reference, study.cases())
     histories = load_histories(tables, HistoryStore(places.spring, places.reference, rig))
     look = looks([*tables.sources("fe"), *tables.sources("rig")], tables.sources("spring"))
     browse, data = browser(tables, views, histories, look, marks)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from ..errors import InputError
+from ..reference import FeStore
 from ..study import LoadedStudy, conditions_digest
 from ..yaml_text import read_yaml
 from . import wording
@@ -113,13 +115,10 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
 
 
 def mesh_table(reference: Path) -> Table | None:
-    """Return the three-mesh studies of the FE runs, ``mesh/{rig,belt}.yaml`` below `reference`; None without any."""
+    """Return the three-mesh studies of the FE runs in the reference data package; None without any."""
     rows: list[Row] = []
     widest = 0
-    for file in sorted((reference / "mesh").glob("*.yaml")):
-        data = read_yaml(file)
-        if not isinstance(data, dict) or not isinstance(data.get("quantities"), dict):
-            raise InputError(file, "no quantities", "a mesh study, as `tread-validate mesh-error` writes it")
+    for data in FeStore(reference).mesh_errors.studies:
         sizes = [f"{size:g} mm" for size in data.get("sizes_mm", [])]
         widest = max(widest, len(sizes))
         for name, item in data["quantities"].items():
@@ -135,12 +134,12 @@ def mesh_table(reference: Path) -> Table | None:
     )
     caption = (
         "Richardson extrapolation from three meshes of one case (doi:10.1115/1.2960953); the error that remains at the "
-        "size in use is carried into every verdict as the reference's uncertainty."
+        "size in use is the uncertainty of the reference runs of the same engine, block, kind of path and mesh."
     )
     return Table("meshes", "Mesh error of the FE runs", columns, tuple(rows), caption, folded=True)
 
 
-def _mesh_row(name: str, item: dict[str, Any], data: dict[str, Any], sizes: list[str]) -> Row:
+def _mesh_row(name: str, item: Mapping[str, Any], data: Mapping[str, Any], sizes: list[str]) -> Row:
     values = [number(value) for value in item.get("values", [])]
     limit, order = number(item.get("limit")), number(item.get("order"))
     error = number(data.get("mesh_error", {}).get(name))

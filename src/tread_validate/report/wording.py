@@ -24,7 +24,9 @@ SYMBOLS = {"agrees": "✓", "disagrees": "✗", "cannot tell": "?"}
 STATUSES = {
     "current": "current",
     "missing": "no reference run yet",
-    "stale": "reference run belongs to an older deck",
+    "stale": "run belongs to another deck, other inputs or other code",
+    "other_code": "reference run made before the engine's code changed",
+    "unbound": "run that does not say what it was made from",
     "corrupt": "reference fails its checksum",
     "no_contact": "no contact",
     "undefined": "not defined here",

@@ -13,7 +13,11 @@ import yaml
 
 from tread_validate.compare import build_tables
 from tread_validate.history import History
-from tread_validate.provenance import deck_digest, sha256_file
+from tread_validate.inp import DeckFiles
+from tread_validate.provenance import sha256_file
+from tread_validate.reference import FeStore
+from tread_validate.reference.filing import file_run, read_run
+from tread_validate.source_code import code_digest
 from tread_validate.spring import resolve_creep, run
 from tread_validate.spring.summary import summary_csv, summary_row
 from tread_validate.study import load_study
@@ -70,9 +74,10 @@ class Workspace:
 
     def write_references(self, factor: float = 1.3) -> None:
         """Write decks of one line and references that are the spring runs, `factor` as high."""
+        store = FeStore(self.references)
         for source in sorted((self.folder / "spring" / "paper").glob("*-*.csv")):
             case_id = source.stem
-            deck, user = f"*HEADING\n{case_id}\n", "      SUBROUTINE VFRIC\n"
+            deck, user = f"*HEADING\n{case_id}\n*STEP, NAME={case_id}\n", "      SUBROUTINE VFRIC\n"
             place = self.decks / case_id
             place.mkdir(parents=True, exist_ok=True)
             (place / f"{case_id}.inp").write_text(deck, encoding="utf-8")
@@ -81,16 +86,19 @@ class Workspace:
             history = History(
                 base.time, factor * base.normal_force, factor * base.tangential_force, base.slipping_fraction
             )
-            target = self.references / "fe" / "embedded" / f"{case_id}.csv"
+            target = self.folder / "fe" / f"{case_id}.csv"
             history.write_csv(target)
+            files = DeckFiles(place / f"{case_id}.inp", place / "vfric.f")
             record = {
                 "case_id": case_id,
                 "engine": "embedded",
-                "deck_digest": deck_digest(deck, user),
+                "code": code_digest("fe"),
+                "deck_digest": files.problem.digest,
                 "history_sha256": sha256_file(target),
                 "mesh_error": 0.02,
             }
             target.with_suffix(".yaml").write_text(yaml.safe_dump(record), encoding="utf-8")
+            file_run(store, read_run(target, files), study="small")
 
     def copy_references(self) -> None:
         """Give the folder copies of the published package and the belt, and a reference store of its own."""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -66,15 +68,16 @@ def test_a_reference_thirty_per_cent_higher_leaves_the_model_23_per_cent_low(wor
 def test_every_case_has_the_same_rows_whatever_its_reference(copy: Workspace) -> None:
     """Missing, stale, corrupt, without contact: as many rows as a current one, without error, each saying why."""
     store = copy.references / "fe" / "embedded"
-    ids = sorted(path.stem for path in store.glob("*.csv"))
-    (store / f"{ids[0]}.csv").unlink()
-    (store / f"{ids[0]}.yaml").unlink()
+    folders = {path.name.rpartition("-")[0]: path for path in store.iterdir()}
+    ids = sorted(folders)
+    shutil.rmtree(folders[ids[0]])
     (copy.decks / ids[1] / f"{ids[1]}.inp").write_text("*HEADING\nanother deck\n", encoding="utf-8")
-    (store / f"{ids[2]}.yaml").unlink()
-    with (store / f"{ids[3]}.csv").open("a", encoding="utf-8") as stream:
+    (folders[ids[2]] / "record.yaml").unlink()
+    with (folders[ids[3]] / "history.csv").open("a", encoding="utf-8") as stream:
         stream.write("1.0,0.0,0.0,0.0\n")
     spring = copy.folder / "spring" / "paper" / f"{ids[4]}.csv"
-    History([0.0, 1.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]).write_csv(spring)
+    made = History.read_csv(spring).provenance
+    History([0.0, 1.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], made).write_csv(spring)
     rows = [row for row in read(copy.build() / "errors.csv") if row["reference_source"] == "fe:embedded"]
     assert len(rows) == CASES * ROWS_PER_CASE
     for case_id, status in zip(ids[:5], ("missing", "stale", "corrupt", "corrupt", "no_contact"), strict=True):
@@ -98,6 +101,35 @@ def test_a_spring_run_of_other_inputs_is_stale(copy: Workspace) -> None:
     copy.write_study(lambda text: text.replace("exponent: 0.25", "exponent: 0.26"))
     rows = read(copy.build() / "peaks.csv")
     assert {row["status"] for row in rows if row["source"] == "spring:paper"} == {"stale"}
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "status"),
+    [("code", "0" * 16, "stale"), ("code", None, "unbound"), ("case_digest", None, "unbound")],
+)
+def test_a_spring_run_of_other_code_or_of_none_is_never_compared(
+    key: str, value: str | None, status: str, copy: Workspace
+) -> None:
+    """Made by other code: stale. Without a digest of case or code: unbound. Neither gives a verdict."""
+    for path in (copy.folder / "spring" / "paper").glob("*-*.csv"):
+        history = History.read_csv(path)
+        made = {name: text for name, text in history.provenance.items() if name != key}
+        dataclasses.replace(history, provenance=made | ({} if value is None else {key: value})).write_csv(path)
+    out = copy.build()
+    assert {row["status"] for row in read(out / "peaks.csv") if row["source"] == "spring:paper"} == {status}
+    assert {row["verdict"] for row in read(out / "errors.csv")} == {"cannot tell"}
+
+
+def test_a_reference_of_other_code_is_compared_and_marked(copy: Workspace) -> None:
+    """The engine has changed since: the numbers are the same, every row says so."""
+    before = read(copy.tables / "errors.csv")
+    for record in (copy.references / "fe" / "embedded").glob("*/record.yaml"):
+        record.write_text(re.sub("code: .*", "code: '0123456789abcdef'", record.read_text()), encoding="utf-8")
+    after = read(copy.build() / "errors.csv")
+    assert [row["error"] for row in after] == [row["error"] for row in before]
+    own = [row for row in after if row["reference_source"] == "fe:embedded"]
+    assert {row["status"] for row in own} == {"other_code"}
+    assert all("made by code 0123456789abcdef" in row["note"] for row in own)
 
 
 def test_regressions_cover_every_source_and_shape(workspace: Workspace) -> None:

@@ -13,7 +13,9 @@ import yaml
 from tread_validate.errors import EngineError, InputError
 from tread_validate.fe import run_deck
 from tread_validate.history import History
-from tread_validate.provenance import deck_digest, sha256_file
+from tread_validate.inp import problem_of
+from tread_validate.provenance import sha256_file
+from tread_validate.source_code import code_digest
 
 spec = importlib.util.spec_from_file_location("subset_deck", Path(__file__).with_name("test_fe_subset.py"))
 assert spec is not None
@@ -51,14 +53,17 @@ def test_result_is_written_whole_with_a_record_bound_to_the_deck(tmp_path: Path,
     result.write(out)
     record = yaml.safe_load(out.with_suffix(".yaml").read_text())
     assert record["engine"] == "embedded"
-    assert record["deck_digest"] == deck_digest(source.read_text())
+    assert record["deck_digest"] == problem_of(source).digest
+    assert record["code"] == code_digest("fe")
     assert record["history_sha256"] == sha256_file(out)
     assert record["elements"] == 1
     assert record["increment_s"]["smallest"] > 0
     history = History.read_csv(out)
     assert np.allclose(history.normal_force, result.history.normal_force, atol=1e-5)
     assert history.normal_force.size > 10
-    assert history.provenance["deck_digest"] == record["deck_digest"]
+    assert {key: history.provenance[key] for key in ("deck_digest", "code", "engine")} == {
+        key: record[key] for key in ("deck_digest", "code", "engine")
+    }
     assert shares[-1] == pytest.approx(1.0)
     for part in ("energies", "contact", "face"):
         assert (tmp_path / "out" / f"press_{part}.csv").is_file()

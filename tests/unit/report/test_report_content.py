@@ -52,7 +52,7 @@ def test_only_factors_that_vary_can_be_chosen(tables: Tables) -> None:
 def test_stale_reference_is_not_loaded(tables: Tables, inputs: Any, made_up: ModuleType) -> None:
     """Exact: its file exists, but its force belongs to another deck."""
     store = HistoryStore(inputs.spring, inputs.reference)
-    assert store.path("fe:embedded", made_up.STALE).is_file()
+    assert store.path("fe:embedded", made_up.STALE, f"fe/embedded/{made_up.STALE}-0").is_file()
     assert set(load_histories(tables, store)[made_up.STALE]) == {"spring:paper"}
 
 

@@ -87,7 +87,7 @@ def test_report_says_what_is_missing_or_stale_in_words(built: Path) -> None:
     """Exact: 18 cases, one without a reference run and one whose run belongs to an older deck."""
     page = (built / "index.html").read_text(encoding="utf-8")
     assert "16 of 18 cases have a current run" in page
-    assert "1 – no reference run yet; 1 – reference run belongs to an older deck" in page
+    assert "1 – no reference run yet; 1 – run belongs to another deck, other inputs or other code" in page
 
 
 def test_mesh_that_is_not_there_is_said_and_not_drawn(built: Path) -> None:

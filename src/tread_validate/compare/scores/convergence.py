@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -113,3 +114,38 @@ def _order(sizes: tuple[float, float, float], first: float, second: float) -> fl
     if mismatch(LEAST_ORDER) * mismatch(LARGEST_ORDER) > 0.0:
         return None
     return float(brentq(mismatch, LEAST_ORDER, LARGEST_ORDER, xtol=1e-12))
+
+
+def mesh_study(sizes: Sequence[float], histories: Sequence[History], used: float) -> dict[str, dict[str, Any]]:
+    """Return a mesh study as plain numbers, for a file: what each quantity is on each mesh and how far from its limit.
+
+    Parameters
+    ----------
+    sizes : (3,) sequence, mm
+        Coarse to fine.
+    histories : (3,) sequence of History
+    used : float, mm
+        The size whose error is wanted.
+
+    Returns
+    -------
+    dict
+        ``mesh_error``: relative error at `used` by quantity; ``quantities``: values, limit and order of each scalar.
+    """
+    at = list(sizes).index(used)
+    scalar = convergence(sizes, histories)
+    whole = history_errors(sizes, histories, used)
+    return {
+        "mesh_error": {
+            **{name: float(f"{item.errors[at]:.4g}") for name, item in scalar.items()},
+            **{name: float(f"{value:.4g}") for name, value in whole.items()},
+        },
+        "quantities": {
+            name: {
+                "values": [float(f"{value:.7g}") for value in item.values],
+                "limit": float(f"{item.limit:.7g}"),
+                "order": None if item.order is None else round(item.order, 3),
+            }
+            for name, item in scalar.items()
+        },
+    }

@@ -68,6 +68,14 @@ class MetricRow(Row):
         # a relative error moves as far as its prediction, over the reference
         return Noise(own.relative, own.relative + own.absolute / abs(self.reference))
 
+    def of_run(self, status: str, note: str) -> MetricRow:
+        """Return the row with the reference's status, where that is not current."""
+        return (
+            self
+            if status == "current"
+            else replace(self, status=status, note="; ".join(filter(None, (self.note, note))))
+        )
+
     def marked(self, assumed: str) -> MetricRow:
         """Return the row with the assumed and synthetic inputs it rests on."""
         return replace(self, assumed=assumed)

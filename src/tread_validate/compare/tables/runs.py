@@ -9,7 +9,10 @@ from .row import Column, Row, column, spread, table_row
 
 ASSUMED = "assumed and synthetic inputs that the row rests on, `; ` between them"
 SOURCE = "who made the run: `spring:<variant>`, `fe:<engine>`, `rig:measured`, `<kind>:published`"
-STATUS = "`current`, `missing`, `stale`, `corrupt`, `no_contact`, `undefined` or `incomplete`"
+STATUS = (
+    "`current`, `other_code` (a reference made before its engine's code changed), `missing`, `stale`, `unbound`, "
+    "`corrupt`, `no_contact`, `undefined` or `incomplete`"
+)
 NOTE = "why there is no value, or a word on it"
 
 
@@ -71,6 +74,7 @@ class PeakRow(Row):
     status: str = column(STATUS)
     note: str = column(NOTE, free=True)
     history_sha256: str = column("SHA-256 of the history file; empty where there is none", free=True)
+    folder: str = column("where a reference run lies, below the reference folder; empty for other runs", free=True)
     assumed: str = column(ASSUMED)
 
     @property

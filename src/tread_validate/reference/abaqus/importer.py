@@ -16,9 +16,9 @@ from ...errors import InputError
 from ...history import History
 from ...inp import DeckFiles
 from ...source_code import code_digest
+from ...yaml_text import read_mapping, write_yaml
 from ..fe_store import FeStore
 from ..filing import file_run, read_run
-from ...yaml_text import read_mapping, write_yaml
 from .deck_facts import DeckFacts, deck_facts
 from .tables import Table, read_table
 

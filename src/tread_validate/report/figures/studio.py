@@ -144,7 +144,8 @@ class Studio:
         """Return the contact face of the first engine with a current run of the case, and the engine's name."""
         for source in self.histories.get(case_id, {}):
             if source.startswith("fe:"):
-                face = contact.read_face(self.reference / source.removeprefix("fe:") / f"{case_id}_face.csv")
+                folder = next(row.folder for row in self.tables.peaks if (row.source, row.case_id) == (source, case_id))
+                face = contact.read_face(self.reference / folder / "face.csv")
                 if face is not None:
                     return face, wording.source(source)
         return None, ""

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from tread_validate.errors import InputError
-from tread_validate.provenance import deck_digest, sha256_file
-from tread_validate.reference import load_fe
+from tread_validate.inp import DeckFiles
+from tread_validate.provenance import sha256_file
+from tread_validate.reference import FeStore
 from tread_validate.reference.abaqus import Options, file_history, import_history
 
 CASE = "belt-22c-0p2mm-10mps"
@@ -116,18 +117,23 @@ def test_reaction_of_the_road_fixes_the_sign(tmp_path, deck, user, curve):
 
 def test_filed_reference_is_current_for_its_deck_and_stale_for_another(tmp_path, deck, user, curve):
     imported = import_history(table(tmp_path / "f.csv", curve), deck, user)
-    path = file_history(imported, tmp_path / "store")
-    assert path == tmp_path / "store" / "fe" / "abaqus" / f"{CASE}.csv"
-    digest = deck_digest(deck.read_text(), user.read_text())
-    assert load_fe(tmp_path / "store", "abaqus", CASE, digest).status == "current"
-    assert load_fe(tmp_path / "store", "abaqus", CASE, "0" * 64).status == "stale"
+    files = DeckFiles(deck, user)
+    folder = file_history(imported, tmp_path / "store", files)
+    assert folder.parent == tmp_path / "store" / "fe" / "abaqus"
+    store = FeStore(tmp_path / "store")
+    assert store.find("abaqus", CASE, files).status == "current"
+    other = tmp_path / "other.inp"
+    other.write_text(deck.read_text() + "*STEP\n")
+    assert store.find("abaqus", CASE, DeckFiles(other, user)).status == "stale"
+    path = folder / "history.csv"
     path.write_text(path.read_text().replace("1", "2"))
-    assert load_fe(tmp_path / "store", "abaqus", CASE, digest).status == "corrupt"
+    assert store.find("abaqus", CASE, files).status == "corrupt"
 
 
 def test_existing_reference_is_replaced_on_request_only(tmp_path, deck, user, curve):
     imported = import_history(table(tmp_path / "f.csv", curve), deck, user)
-    file_history(imported, tmp_path / "store")
+    files = DeckFiles(deck, user)
+    file_history(imported, tmp_path / "store", files)
     with pytest.raises(InputError, match="--replace"):
-        file_history(imported, tmp_path / "store")
-    file_history(imported, tmp_path / "store", replace=True)
+        file_history(imported, tmp_path / "store", files)
+    file_history(imported, tmp_path / "store", files, replace=True)
