@@ -195,7 +195,7 @@ def test_source_is_fixed_form_of_72_columns_in_plain_ascii(kind: str) -> None:
 def test_properties_in_the_deck_are_those_of_the_law(
     rig_case: Case, coarse: Callable[[Case], Case], tmp_path: Path
 ) -> None:
-    """Written with 13 digits, read back as numbers: 1e-12. The last is half of the face's layer, 3.2 mm, of 1e-9 t/mm3."""
+    """Written with 13 digits, read back as numbers: 1e-12. The last: half of a layer of 3.2 mm of 1e-9 t/mm3."""
     case = coarse(rig_case)
     deck.write(case, tmp_path)
     block = next(read_deck(tmp_path / f"{case.case_id}.inp").named("FRICTION"))
