@@ -29,7 +29,7 @@ class UserFriction:
     properties: tuple[float, ...]
 
 
-def user_friction(law: FrictionLaw, mass_per_area: float) -> UserFriction:
+def user_friction(law: FrictionLaw, mass_per_area: float = 0.0) -> UserFriction:
     """Return VFRIC and its properties for `law` and the face nodes' mass per area, t/mm2."""
     return UserFriction(source(law.kind), properties(law, mass_per_area))
 
