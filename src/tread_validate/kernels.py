@@ -100,9 +100,7 @@ class KernelCache:
         """Return what was saved under `key` by a kernel with the same digest, or None."""
         try:
             found, data = pickle.loads(self._path(key).read_bytes())
-        except (OSError, EOFError, pickle.UnpicklingError):
-            return None
-        except (AttributeError, ImportError):  # made for a class that has moved since
+        except (OSError, EOFError, pickle.UnpicklingError, AttributeError, ImportError):
             return None
         return data if found == key else None
 

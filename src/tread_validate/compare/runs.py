@@ -23,7 +23,8 @@ class SourceRun:
     ----------
     status : str
         ``current``; ``other_code``: a reference made before its engine's code changed, compared and marked; ``stale``,
-        ``unbound`` (made nobody knows from what), ``missing``, ``corrupt`` or ``no_contact``: never compared.
+        ``unbound`` (made nobody knows from what), ``missing``, ``failed`` (the model gave no history), ``corrupt`` or
+        ``no_contact``: never compared.
     note : str
         Why it is not current.
     history, scalars : or None
@@ -74,7 +75,7 @@ def fe_runs(
         run = SourceRun(source, case.case_id, found.status, found.reason, digest=found.digest, folder=folder)
         if found.history is not None:
             stated = found.stated_error()
-            run = _with_scalars(run, found.history, store.mesh_errors.error(case, engine) if stated is None else stated)
+            run = with_scalars(run, found.history, store.mesh_errors.error(case, engine) if stated is None else stated)
         runs[source, case.case_id] = run
     return runs
 
@@ -93,7 +94,7 @@ def _spring_run(source: str, case: Case, path: Path) -> SourceRun:
         return SourceRun(source, case.case_id, "corrupt", one_line(f"{path.name}: {error.found}"))
     status, note = _binding(history, case, source.partition(":")[2])
     run = SourceRun(source, case.case_id, status, note, digest=history.digest())
-    return run if status != "current" else _with_scalars(run, history, None)
+    return run if status != "current" else with_scalars(run, history, None)
 
 
 def _binding(history: History, case: Case, variant: str) -> tuple[str, str]:
@@ -108,7 +109,8 @@ def _binding(history: History, case: Case, variant: str) -> tuple[str, str]:
     return "current", ""
 
 
-def _with_scalars(run: SourceRun, history: History, uncertainty: float | Mapping[str, float] | None) -> SourceRun:
+def with_scalars(run: SourceRun, history: History, uncertainty: float | Mapping[str, float] | None) -> SourceRun:
+    """Return the run with its history and what sums it up; one without contact has neither."""
     try:
         values = scalars(history)
     except InputError as error:

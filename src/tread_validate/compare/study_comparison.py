@@ -7,11 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..errors import InputError, one_line
 from ..files import read_text
 from ..reference import load_published
 from ..study import Case, LoadedStudy
 from .claims.claim import Claim, Evidence
 from .claims.published import published_claims
+from .model_runs import model_runs, model_source
 from .regression.coefficients import computed_regression, published_coefficients
 from .regression.differences import differences
 from .regression.line import EXCLUDED_INTERFERENCES
@@ -46,12 +48,17 @@ def compare_study(
     reference_dir: Path,
     decks_dir: Path,
     exclude: Sequence[float] = EXCLUDED_INTERFERENCES,
+    models_dir: Path | None = None,
 ) -> Comparison:
-    """Compare every run of a study with its reference, and the study with the paper."""
+    """Compare every run of a study with its reference, and the study with the paper.
+
+    The histories of the user's own models lie in `models_dir`, beside `spring_dir` where it is None.
+    """
     variants = loaded.model.spring.variants
     cases = _resolved(loaded.cases())
     runs = spring_runs(cases, spring_dir, variants)
-    sources = [f"spring:{variant}" for variant in variants]
+    runs |= model_runs(loaded, cases, models_dir or spring_dir.parent / "models")
+    sources = [f"spring:{variant}" for variant in variants] + [model_source(name) for name in loaded.model.models]
     references = []
     for engine in engines(reference_dir, loaded.model.engine):
         runs |= fe_runs(cases, reference_dir, engine, decks_dir)
@@ -112,25 +119,29 @@ def _metric_rows(
             for case in cases:
                 reference, predicted = runs[reference_source, case.case_id], runs[predicted_source, case.case_id]
                 assumed = "; ".join(case.assumed())
+                bad, status, note = reference if reference.history is None else predicted, "", ""
                 if reference.history is not None and predicted.history is not None:
-                    own = compare(
-                        reference.history,
-                        predicted.history,
-                        case_id=case.case_id,
-                        reference_source=reference_source,
-                        predicted_source=predicted_source,
-                        uncertainty=reference.uncertainty,
-                        assumed=assumed,
-                    )
-                    rows += [row.of_run(reference.status, reference.note) for row in own]
-                    continue
-                bad = reference if reference.history is None else predicted
+                    try:
+                        own = compare(
+                            reference.history,
+                            predicted.history,
+                            case_id=case.case_id,
+                            reference_source=reference_source,
+                            predicted_source=predicted_source,
+                            uncertainty=reference.uncertainty,
+                            assumed=assumed,
+                        )
+                    except InputError as error:  # two clocks: no score of the pair means anything
+                        status, note = "undefined", one_line(str(error))
+                    else:
+                        rows += [row.of_run(reference.status, reference.note) for row in own]
+                        continue
                 rows += empty_rows(
                     case.case_id,
                     reference_source,
                     predicted_source,
-                    bad.status,
-                    f"{bad.source}: {bad.note}",
+                    status or bad.status,
+                    note or f"{bad.source}: {bad.note}",
                     reference=reference.scalars,
                     predicted=predicted.scalars,
                     assumed=assumed,

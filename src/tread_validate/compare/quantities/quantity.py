@@ -9,6 +9,7 @@ from typing import Literal
 from .values import Compute, Spread
 
 ErrorType = Literal["relative", "absolute", "score"]
+Column = Literal["normal", "tangential", "slip"]
 Scale = Literal["itself", "peak_normal_force", "normal_impulse", "contact_duration", "one"]
 
 FORCE_TOLERANCE = 0.10
@@ -63,6 +64,8 @@ class Quantity:
     small : str or None
         Scalar of the reference against which a reference value counts as small (below `SMALL_SHARE` of it) and is
         judged absolutely, with `SMALL_SHARE` times the tolerance of that scalar: the two rules meet without a jump.
+    needs : str
+        The column of a history that it is computed from: a model may leave out all but the normal force.
     measured : bool
         Whether a rig could measure it.
     flag : bool
@@ -79,6 +82,7 @@ class Quantity:
     scale: Scale
     tolerance: float
     small: Scale | None = None
+    needs: Column = "normal"
     measured: bool = True
     flag: bool = False
 

@@ -12,7 +12,10 @@ from .contact import contact_of
 
 @dataclass(frozen=True)
 class Scalars:
-    """Scalars of one run, SI: each of the catalogue's names is an attribute (``peak_normal_force``, N, ...)."""
+    """Scalars of one run, SI: each of the catalogue's names is an attribute (``peak_normal_force``, N, ...).
+
+    What the history does not give the columns for has no scalar.
+    """
 
     values: Mapping[str, float]
 
@@ -30,4 +33,5 @@ class Scalars:
 def scalars(history: History) -> Scalars:
     """Return the scalars of one run; raises `InputError` for a history without contact."""
     contact = contact_of(history)
-    return Scalars({quantity.name: float(quantity.compute(contact)) for quantity in SCALARS})
+    given = {"normal": True, "tangential": history.gives_tangential, "slip": history.gives_slip}
+    return Scalars({quantity.name: float(quantity.compute(contact)) for quantity in SCALARS if given[quantity.needs]})

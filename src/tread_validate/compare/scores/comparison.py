@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from ...history import History
 from ..quantities import HISTORIES, HISTORY_METRICS, SCALARS, SMALL_SHARE, ErrorType, Quantity, Scalars, Scale, scalars
 from ..tables import MetricRow
-from .align import align, window
+from .align import Pair, align, window
 from .history_rows import Names, Uncertainty, history_rows, metric_unit
 from .iso18571 import SAMPLES as ISO_SAMPLES
 from .verdict import CANNOT_TELL, verdict
+
+THOUSAND = (500.0, 2000.0)
+MIRRORED = -0.9
+"""Cosine between two tangential histories below which one looks like the other with its sign turned."""
 
 
 def compare(
@@ -44,8 +50,29 @@ def compare(
     fine = align(reference, predicted, limits=limits)
     coarse = align(reference, predicted, ISO_SAMPLES, limits)
     for quantity in HISTORIES:
-        rows += history_rows(quantity, fine, coarse, names, uncertainty)
-    return tuple(row.marked(assumed) for row in rows)
+        if quantity == "tangential_force" and not (reference.gives_tangential and predicted.gives_tangential):
+            rows += [_not_given(quantity, m.name, names, metric_unit(m), m.error_type) for m in HISTORY_METRICS]
+        else:
+            rows += history_rows(quantity, fine, coarse, names, uncertainty)
+    hints = suspicions(reference, predicted, fine)
+    return tuple(row.marked(assumed).hinted(hints.get((row.quantity, row.metric), "")) for row in rows)
+
+
+def suspicions(reference: History, predicted: History, pair: Pair) -> dict[tuple[str, str], str]:
+    """Return what looks like a mistake of units or sign, by quantity and metric: pointed out, never corrected."""
+    found = {}
+    ratio = float(predicted.normal_force.max()) / float(reference.normal_force.max())
+    factor = max(ratio, 1.0 / ratio)
+    if THOUSAND[0] <= factor <= THOUSAND[1]:
+        found["peak_normal_force", "scalar"] = (
+            f"{'more' if ratio > 1.0 else 'less'} than the reference by a factor of {factor:.4g}: N taken for kN?"
+        )
+    if reference.gives_tangential and predicted.gives_tangential:
+        a, b = pair.forces("tangential_force")
+        norm = float(np.sqrt(np.sum(a * a) * np.sum(b * b)))
+        if norm > 0.0 and float(np.sum(a * b)) < MIRRORED * norm:
+            found["tangential_force", "relative_rms"] = "the reference's mirror image: is T positive towards -x?"
+    return found
 
 
 def empty_rows(
@@ -118,9 +145,20 @@ def scalar_row(
     )  # fmt: skip
 
 
+def _not_given(quantity: str, metric: str, names: Names, unit: str, error_type: ErrorType) -> MetricRow:
+    case_id, reference_source, predicted_source = names
+    return MetricRow(
+        case_id, quantity, metric, reference_source, predicted_source, None, None, unit, None, error_type, None, None,
+        None, CANNOT_TELL, "not_given", "one of the two does not give it",
+    )  # fmt: skip
+
+
 def _scalar_row(quantity: Quantity, a: Scalars, b: Scalars, names: Names, uncertainty: Uncertainty) -> MetricRow:
-    scales = a.as_dict()
-    reference, predicted = scales[quantity.name], b.as_dict()[quantity.name]
+    scales, values = a.as_dict(), b.as_dict()
+    if quantity.name not in scales or quantity.name not in values:
+        kind: ErrorType = "relative" if quantity.scale == "itself" else "absolute"
+        return _not_given(quantity.name, "scalar", names, quantity.unit, kind)
+    reference, predicted = scales[quantity.name], values[quantity.name]
     return scalar_row(quantity, reference, predicted, scales, names, _spread(quantity, a, uncertainty))
 
 

@@ -80,6 +80,10 @@ class MetricRow(Row):
         """Return the row with the assumed and synthetic inputs it rests on."""
         return replace(self, assumed=assumed)
 
+    def hinted(self, hint: str) -> MetricRow:
+        """Return the row with what looks like a mistake of the user's in its note."""
+        return replace(self, note="; ".join(part for part in (hint, self.note) if part)) if hint else self
+
 
 @table_row
 class Ensemble(Row):
