@@ -11,7 +11,9 @@ from .options import number
 
 
 def command(
-    sweeps: Annotated[Path, typer.Argument(help="table: temperature_degC, frequency_Hz, storage_modulus_Pa, ...")],
+    sweeps: Annotated[
+        list[Path], typer.Argument(help="exports of the analyser, text or .xlsx: one file, or one a sweep")
+    ],
     output: Annotated[Path, typer.Option("-o", "--output", help="material file (YAML) to write")] = Path(
         "material.yaml"
     ),
@@ -44,6 +46,12 @@ def command(
     ] = None,
     master: Annotated[bool, typer.Option("--master", help="the table is a master curve at --reference-degC")] = False,
     unit: Annotated[str | None, typer.Option("--modulus-unit", help="Pa, kPa, MPa or GPa, whatever the header")] = None,
+    frequency_unit: Annotated[str | None, typer.Option("--frequency-unit", help="Hz or rad/s")] = None,
+    temperature_unit: Annotated[str | None, typer.Option("--temperature-unit", help="degC or K")] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option("--column", help="KEY=COLUMN (heading or number), KEY one of temperature, storage, ..."),
+    ] = None,
     confirm: Annotated[bool, typer.Option("--confirm-units", help="accept values out of the usual range")] = False,
     replicates: Annotated[int, typer.Option("--resamples", min=0, max=20000, help="for the 95 % bands")] = 400,
     origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
@@ -51,7 +59,7 @@ def command(
     card: Annotated[Path | None, typer.Option("--abaqus-card", help="write the ABAQUS material card here too")] = None,
     figure: Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")] = None,
 ) -> None:
-    """Smooth, shift and fit sweeps; write a material file that a study reads, with its quality and uncertainty.
+    """Shift and fit sweeps; write a material file that a study reads, with its quality and uncertainty.
 
     Example: tread-validate fit-prony reference_data/material/synthetic_sweeps.csv --band 0.25 2500 -o material.yaml
     """
@@ -62,7 +70,7 @@ def command(
     from ..material.material_file import material_yaml
     from ..material.route import Times
     from ..study import Wlf
-    from .laboratory import checked_origin, provenance, write_all
+    from .laboratory import checked_origin, provenance, reading_of, write_all
 
     if times not in get_args(Times):
         raise InputError("--times", times, f"one of {', '.join(get_args(Times))}")
@@ -70,7 +78,10 @@ def command(
         raise InputError("--vertical-shift", "given constants", "--fit-wlf with it")
     if band is not None and not 0 < band[0] < band[1]:
         raise InputError("--band", f"{band[0]:g} {band[1]:g}", "0 < LOW < HIGH")
-    kind, told = checked_origin(sweeps, origin, source)
+    reading = reading_of(
+        column, {"--modulus-unit": unit, "--frequency-unit": frequency_unit, "--temperature-unit": temperature_unit}
+    )
+    kind, told = checked_origin(sweeps[0], origin, source)
     wlf = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=ts)
     settings = RouteSettings(
         terms=terms,
@@ -84,8 +95,8 @@ def command(
         vertical="fitted" if vertical else "none",
         replicates=replicates,
     )
-    route = read_route(sweeps, wlf, reference, settings, unit, confirm, master)
-    text = material_yaml(route.fit.series, route.wlf, kind, told, route.quality(), provenance(sweeps))
+    route = read_route(sweeps, wlf, reference, settings, None, confirm, master, reading)
+    text = material_yaml(route.fit.series, route.wlf, kind, told, route.quality(), provenance(*sweeps))
     files = {output: text}
     if card is not None:
         files[card] = f"** {kind} data: {told}\n" + abaqus_card(route.fit.series, route.wlf)
@@ -95,6 +106,8 @@ def command(
 
         mark = ", synthetic" if kind == "synthetic" else ""
         draw.save(figure, (9.4, 6.6), lambda canvas: draw.material(route, canvas, mark))
+    for line in route.understood:
+        typer.echo(f"read: {line}")
     typer.echo(f"{kind} data: {told}")
     for key, merit in route.quality().items():
         typer.echo(f"{key}: {merit}")
@@ -103,6 +116,8 @@ def command(
             f"fitted WLF at {reference:g} degC: C1 = {route.wlf.c1:.4f} +- {1.96 * route.wlf_fit.deviations[0]:.4f}, "
             f"C2 = {route.wlf.c2_K:.2f} +- {1.96 * route.wlf_fit.deviations[1]:.2f} K (95 %)"
         )
+    if route.bands_refused:
+        typer.echo(f"warning: no bands: {route.bands_refused}")
     if not route.consistency.consistent:
         typer.echo("warning: storage and loss modulus are not consistent with each other (Kramers-Kronig)")
     typer.echo(f"wrote {output}")

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import InputError, one_line
 from ..files import write_text
+
+if TYPE_CHECKING:
+    from ..instrument import Reading
 
 ORIGINS = ("measured", "synthetic")
 
@@ -40,11 +44,33 @@ def _head(path: Path) -> dict[str, str]:
     return said
 
 
-def provenance(path: Path) -> dict[str, str]:
-    """Return input name and checksum, and package version; no commit, so that the same input gives the same file."""
+def provenance(*paths: Path) -> dict[str, str]:
+    """Return input names and checksums, and package version; no commit, so that the same input gives the same file."""
     from ..provenance import sha256_file, version
 
-    return {"input": path.name, "input_sha256": sha256_file(path), "version": version()}
+    found = {"input": paths[0].name, "input_sha256": sha256_file(paths[0])}
+    for number, path in enumerate(paths[1:], start=2):
+        found |= {f"input_{number}": path.name, f"input_{number}_sha256": sha256_file(path)}
+    return found | {"version": version()}
+
+
+def reading_of(columns: list[str] | None, units: Mapping[str, str | None]) -> Reading:
+    """Return what ``--column KEY=COLUMN`` and the unit options say of a file."""
+    from ..instrument import Reading
+    from ..instrument.quantities import DMA, FREQUENCY, PRESSURE, TEMPERATURE, choices
+
+    known = {"--modulus-unit": PRESSURE, "--frequency-unit": FREQUENCY, "--temperature-unit": TEMPERATURE}
+    for option, unit in units.items():
+        if unit is not None and unit.lower() not in known[option]:
+            raise InputError(option, one_line(unit, 40), f"one of {choices(known[option])}")
+    keys = [quantity.key for quantity in DMA]
+    chosen = {}
+    for pair in columns or []:
+        key, equals, column = pair.partition("=")
+        if not equals or key not in keys or not column:
+            raise InputError("--column", one_line(pair, 60), f"KEY=COLUMN with KEY one of {', '.join(keys)}")
+        chosen[key] = column
+    return Reading(chosen, {option: unit for option, unit in units.items() if unit is not None})
 
 
 def write_all(files: Mapping[Path, str]) -> None:

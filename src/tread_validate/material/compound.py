@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..instrument import Reading
 from ..provenance import sha256_file
 from ..study import Compound, FractionalZener, PronyCompound, PronyFile, SweepFile
 from ..units import MPA
@@ -105,7 +106,11 @@ def sweep_route(compound: SweepFile, path: Path, replicates: int = 0) -> Materia
         times="even",
         replicates=replicates,
     )
-    return read_route(path, compound.wlf, compound.data_temperature_degC, settings)
+    reading = Reading(
+        compound.columns.model_dump(exclude_none=True),
+        {f"--{name}-unit": unit for name, unit in compound.units.model_dump(exclude_none=True).items()},
+    )
+    return read_route(path, compound.wlf, compound.data_temperature_degC, settings, reading=reading)
 
 
 def rounded(series: PronySeries) -> PronySeries:

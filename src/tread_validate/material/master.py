@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 
 from ..errors import InputError
 from ..study import Wlf
-from .sweeps import Sweep
+from .sweep import Sweep
 from .wlf import referred_to, relative_shift
 
 Array = NDArray[np.float64]

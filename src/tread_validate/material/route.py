@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..instrument import Reading
 from ..study import Wlf
 from .bands import Bands, bands, grid
 from .collocation import relaxation_times
@@ -19,7 +21,8 @@ from .kramers_kronig import KramersKronig, kramers_kronig
 from .master import MasterCurve, VerticalShift, WlfFit, fit_wlf, shift
 from .reduce import prune, refine_times
 from .rich import RichCurve, Scatter, rich_curve
-from .sweeps import Sweep, check_above_pole, read_sweeps
+from .sweep import Sweep
+from .sweeps import check_above_pole, read_export
 
 Array = NDArray[np.float64]
 Times = Literal["auto", "even", "refined"]
@@ -87,6 +90,10 @@ class MaterialRoute:
         Series and relative residuals in the band.
     consistency : KramersKronig
     bands : Bands or None
+    understood : tuple of str
+        How the files were read.
+    bands_refused : str
+        Why there are no bands although they were asked for: a band is wider than its modulus.
     """
 
     source: str
@@ -102,6 +109,8 @@ class MaterialRoute:
     fit: PronyFit
     consistency: KramersKronig
     bands: Bands | None
+    understood: tuple[str, ...] = ()
+    bands_refused: str = ""
 
     @property
     def outliers(self) -> int:
@@ -145,6 +154,8 @@ class MaterialRoute:
         for name, one in zip(("storage", "loss"), self.scatters, strict=True):
             rows[f"{name}_noise_percent"] = round(100 * one.noise, 3)
             rows[f"{name}_misfit_percent"] = round(100 * one.misfit, 3)
+        if self.bands_refused:
+            rows["bands_refused"] = self.bands_refused
         if self.bands is not None:
             b = self.bands
             for k, (name, band) in enumerate((("storage", b.storage_modulus), ("loss", b.loss_modulus))):
@@ -183,33 +194,51 @@ def material_route(
     w, storage, loss = (values[kept] for values in (master.angular_frequency, *master.moduli))
     fit = _fit(w, storage, loss, band, reference_temperature, chosen)
     raw = master.angular_frequency[inside], master.storage_modulus[inside], master.loss_modulus[inside]
-    found_bands = None
+    found_bands, refused = None, ""
     if chosen.replicates:
         shifted = None if wlf_fit is None else _shift_deviation(sweeps, wlf_fit, master, ~outlier, fit)
         behind = replace(rich, leverage=rich.leverage[:, kept[~outlier]])
         everywhere = master.angular_frequency[~outlier]
-        found_bands = bands(
-            fit, raw, everywhere, behind, both, shifted, chosen.loss_weight, chosen.replicates, chosen.seed
-        )
+        try:
+            found_bands = bands(
+                fit, raw, everywhere, behind, both, shifted, chosen.loss_weight, chosen.replicates, chosen.seed
+            )
+        except InputError as error:  # the data say too little there; the fit stands, its bands do not
+            refused = str(error)
     consistency = kramers_kronig(w, storage, loss)
     return MaterialRoute(
-        source, chosen, sweeps, used, wlf_fit, master, band, rich, outlier, both, fit, consistency, found_bands
+        source,
+        chosen,
+        sweeps,
+        used,
+        wlf_fit,
+        master,
+        band,
+        rich,
+        outlier,
+        both,
+        fit,
+        consistency,
+        found_bands,
+        bands_refused=refused,
     )
 
 
 def read_route(
-    path: Path | str,
+    path: Path | str | Sequence[Path | str],
     wlf: Wlf,
     reference_temperature: float,
     settings: RouteSettings | None = None,
     modulus_unit: str | None = None,
     confirm_units: bool = False,
     ready_master: bool = False,
+    reading: Reading | None = None,
 ) -> MaterialRoute:
-    """Read a file of sweeps, or a ready master curve at `reference_temperature`, and go the whole route."""
+    """Read files of sweeps, or a ready master curve at `reference_temperature`, and go the whole route."""
     at = reference_temperature if ready_master else None
-    sweeps = read_sweeps(path, modulus_unit, confirm_units, at)
-    return material_route(sweeps, wlf, reference_temperature, settings, str(path))
+    sweeps, notes = read_export(path, modulus_unit, confirm_units, at, reading)
+    source = str(path if isinstance(path, str | Path) else path[0])
+    return replace(material_route(sweeps, wlf, reference_temperature, settings, source), understood=notes)
 
 
 def _band(master: MasterCurve, settings: RouteSettings, source: str) -> tuple[float, float]:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..columns import Columns, read_columns
 from ..errors import InputError
+from ..instrument import Reading
 from ..study import Wlf
+from .dma_file import DmaTable, read_dma
+from .ramps import isothermal, ramp_rounds
+from .sweep import Sweep
 from .wlf import pole
-
-Array = NDArray[np.float64]
 
 COLUMNS = ("temperature_degC", "frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa")
 UNITS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -21,121 +22,152 @@ SAME_TEMPERATURE = 0.6  # K: an instrument holds its set point no better
 PLAUSIBLE_MODULUS = (1e4, 1e12)  # Pa, of the median storage modulus of a solid polymer
 PLAUSIBLE_TEMPERATURE = (-170.0, 300.0)  # degC
 FEWEST_POINTS = 5
-
-
-@dataclass(frozen=True)
-class Sweep:
-    """One isothermal frequency sweep.
-
-    Attributes
-    ----------
-    temperature : float, degC
-    angular_frequency : (n,) array, rad/s, increasing
-    storage_modulus, loss_modulus : (n,) arrays, Pa, > 0
-    line : (n,) array of int
-        Line of the source file.
-    """
-
-    temperature: float
-    angular_frequency: Array
-    storage_modulus: Array
-    loss_modulus: Array
-    line: NDArray[np.int64]
+LARGEST_FREQUENCY, LARGEST_MODULUS = 1e20, 1e15  # Hz, Pa
+SAME_FREQUENCY = 0.4  # in ln f: back at the first one
 
 
 def read_sweeps(
-    path: Path | str,
+    path: Path | str | Sequence[Path | str],
     modulus_unit: str | None = None,
     confirm_units: bool = False,
     reference_temperature: float | None = None,
+    reading: Reading | None = None,
 ) -> tuple[Sweep, ...]:
-    """Read sweeps; consecutive rows within 0.6 K are one sweep, rising or falling in frequency.
+    """Read sweeps as an analyser exports them, from one file or several; see `read_export`."""
+    return read_export(path, modulus_unit, confirm_units, reference_temperature, reading)[0]
 
-    Columns temperature_degC, frequency_Hz, storage_modulus_Pa, loss_modulus_Pa; others are passed over. A file without
-    temperatures is a ready master curve and needs `reference_temperature` in degC. `modulus_unit` (Pa, kPa, MPa, GPa)
-    states the unit of both moduli whatever the header says; without it values that cannot be Pa are refused unless
+
+def read_export(
+    path: Path | str | Sequence[Path | str],
+    modulus_unit: str | None = None,
+    confirm_units: bool = False,
+    reference_temperature: float | None = None,
+    reading: Reading | None = None,
+) -> tuple[tuple[Sweep, ...], tuple[str, ...]]:
+    """Return the sweeps of files, and what was understood of them in lines of text.
+
+    Columns are known by name and unit (`tread_validate.instrument`). A sweep is what the file counts as one; else
+    consecutive rows within 0.6 K whose frequency rises or falls. Ramps that run through a few frequencies again and
+    again become one sweep a round, at its middle temperature. Files without temperatures are master curves and need
+    `reference_temperature` in degC. `modulus_unit` holds for all moduli whatever the heading says.
+
+    Raises `InputError` with file, line, column and reason; values out of any polymer's range (a wrong unit) unless
     `confirm_units`.
-
-    Raises `InputError` with file, line and reason: a missing column, moduli or frequencies <= 0, frequencies out of
-    order, values out of any polymer's range (unit), fewer than 5 points in a sweep.
     """
-    needed = COLUMNS if reference_temperature is None else COLUMNS[1:]
-    table = read_columns(path, needed)
-    for name in COLUMNS[1:]:
-        table.refuse(~(table[name] > 0), name, "a value > 0")
     if modulus_unit is not None and modulus_unit not in UNITS:
         raise InputError("modulus unit", modulus_unit, f"one of {', '.join(UNITS)}")
-    factor = UNITS[modulus_unit or "Pa"]
+    chosen = reading or Reading()
+    if modulus_unit is not None:
+        chosen = replace(chosen, units={**chosen.units, "--modulus-unit": modulus_unit})
+    sweeps: list[Sweep] = []
+    notes: list[str] = []
+    for file in [path] if isinstance(path, str | Path) else path:
+        tables, understood = read_dma(file, chosen)
+        notes += understood
+        for table in tables:
+            checked = _checked(table, confirm_units, reference_temperature)
+            found, ramp = _sweeps(checked)
+            sweeps += found
+            notes += [ramp] if ramp and ramp not in notes else []
+    notes.append(f"{len(sweeps)} sweep(s), {sum(sweep.line.size for sweep in sweeps)} points")
+    return tuple(sweeps), tuple(notes)
+
+
+def _checked(table: DmaTable, confirm_units: bool, reference_temperature: float | None) -> DmaTable:
+    for key, values, most in (
+        ("frequency", table.angular_frequency / (2.0 * np.pi), LARGEST_FREQUENCY),
+        ("storage", table.storage_modulus, LARGEST_MODULUS),
+        ("loss", table.loss_modulus, LARGEST_MODULUS),
+    ):
+        unit = "Hz" if key == "frequency" else "Pa"
+        table.refuse(
+            ~((values > 0) & (values <= most)), key, values, f"a value > 0: a number from 0 to {most:g} {unit}"
+        )
+    if reference_temperature is not None:
+        table = replace(table, temperature=np.full(table.line.size, reference_temperature), sweep=table.sweep * np.nan)
+    elif np.isnan(table.temperature).any():
+        raise InputError(
+            f"{table.source}:{max(table.line[0] - 1, 1)}",
+            "no temperature",
+            "a column of temperatures, or 'temperature: ... degC' above the table, or --master with --reference-degC",
+        )
     if not confirm_units:
-        _check_ranges(table, factor, reference_temperature is None)
-    if reference_temperature is None:
-        temperature = table["temperature_degC"]
-        starts = _starts(temperature)
+        _check_ranges(table, reference_temperature is None)
+    return table
+
+
+def _sweeps(table: DmaTable) -> tuple[list[Sweep], str]:
+    if np.isfinite(table.sweep).all():
+        starts = np.flatnonzero(np.diff(table.sweep, prepend=np.nan) != 0).tolist()
     else:
-        temperature = np.full(table.line.size, reference_temperature)
-        starts = [0]
-    return tuple(
-        _sweep(table, temperature, slice(first, last), factor)
-        for first, last in zip(starts, [*starts[1:], table.line.size], strict=True)
-    )
+        rounds = ramp_rounds(table)
+        if rounds:
+            return isothermal(table, rounds)
+        starts = _starts(table)
+    ends = [*starts[1:], table.line.size]
+    return [_sweep(table, slice(first, last)) for first, last in zip(starts, ends, strict=True)], ""
 
 
-def _starts(temperature: Array) -> list[int]:
+def _starts(table: DmaTable) -> list[int]:
+    """Return the rows at which a sweep starts: another temperature, or the first frequency again."""
+    temperature, w = table.temperature, table.angular_frequency
     starts = [0]
-    for row in range(1, temperature.size):
-        if abs(temperature[row] - temperature[starts[-1]]) > SAME_TEMPERATURE:
+    for row in range(1, w.size):
+        first = starts[-1]
+        again = row - first >= FEWEST_POINTS and abs(np.log(w[row] / w[first])) < SAME_FREQUENCY
+        if abs(temperature[row] - temperature[first]) > SAME_TEMPERATURE or again:
             starts.append(row)
     return starts
 
 
-def _sweep(table: Columns, temperature: Array, rows: slice, factor: float) -> Sweep:
-    frequency = table["frequency_Hz"][rows]
-    mean = float(np.mean(temperature[rows]))
-    if frequency.size < FEWEST_POINTS:
-        found = f"a sweep of {frequency.size} point(s) at {mean:.4g} degC"
+def _sweep(table: DmaTable, rows: slice) -> Sweep:
+    w = table.angular_frequency[rows]
+    mean = float(np.mean(table.temperature[rows]))
+    if w.size < FEWEST_POINTS:
+        found = f"a sweep of {w.size} point(s) at {mean:.4g} degC"
         raise InputError(table.where(rows.start), found, f"at least {FEWEST_POINTS} at one temperature")
-    steps = np.diff(frequency)
+    steps = np.diff(w)
     rising = steps[0] > 0
     wrong = ~(steps > 0) if rising else ~(steps < 0)
     if wrong.any():
         row = rows.start + int(np.argmax(wrong)) + 1
-        expected = f"a frequency {'above' if rising else 'below'} the {table['frequency_Hz'][row - 1]:g} Hz before it"
-        raise InputError(f"{table.where(row)}: frequency_Hz", f"{table['frequency_Hz'][row]:g} Hz", expected)
+        before, here = table.angular_frequency[row - 1 : row + 1] / (2.0 * np.pi)
+        expected = f"a frequency {'above' if rising else 'below'} the {before:g} Hz before it"
+        raise InputError(f"{table.where(row)}: {table.names['frequency']}", f"{here:g} Hz", expected)
     order = slice(None) if rising else slice(None, None, -1)
     return Sweep(
         temperature=mean,
-        angular_frequency=2.0 * np.pi * frequency[order],
-        storage_modulus=factor * table["storage_modulus_Pa"][rows][order],
-        loss_modulus=factor * table["loss_modulus_Pa"][rows][order],
+        angular_frequency=w[order],
+        storage_modulus=table.storage_modulus[rows][order],
+        loss_modulus=table.loss_modulus[rows][order],
         line=table.line[rows][order],
     )
 
 
-def _check_ranges(table: Columns, factor: float, has_temperature: bool) -> None:
-    storage = table["storage_modulus_Pa"] * factor
-    middle = float(np.median(storage))
+def _check_ranges(table: DmaTable, has_temperature: bool) -> None:
+    middle = float(np.median(table.storage_modulus))
     low, high = PLAUSIBLE_MODULUS
     if not low <= middle <= high:
         likely = "MPa" if 1e-2 <= middle < 1e4 else "another unit"
         raise InputError(
-            f"{table.where(0)}: storage_modulus_Pa",
+            f"{table.where(0)}: {table.names.get('storage', 'modulus')}",
             f"a median of {middle:.4g} Pa, which no solid polymer has (is it {likely}?)",
             f"{low:g} to {high:g} Pa; state the unit (--modulus-unit) or confirm this one (--confirm-units)",
         )
     with np.errstate(over="ignore"):  # a single absurd value is no reason to warn: the median decides
-        ratio = float(np.median(table["loss_modulus_Pa"] / table["storage_modulus_Pa"]))
+        ratio = float(np.median(table.loss_modulus / table.storage_modulus))
     if not 1e-4 <= ratio <= 20.0:
         raise InputError(
-            f"{table.where(0)}: loss_modulus_Pa",
+            f"{table.where(0)}: {table.names.get('loss', 'tan delta')}",
             f"a median loss factor of {ratio:.3g}",
             "0.0001 to 20, with both moduli in one unit, or --confirm-units",
         )
     if has_temperature:
-        temperature = table["temperature_degC"]
+        temperature = table.temperature
         wrong = (temperature < PLAUSIBLE_TEMPERATURE[0]) | (temperature > PLAUSIBLE_TEMPERATURE[1])
         if np.min(temperature) > 200.0:
             wrong = np.ones_like(wrong)
-        table.refuse(wrong, "temperature_degC", "degC, not K or degF, or --confirm-units")
+        table.refuse(wrong, "temperature", temperature, "degC, not K or degF, or --confirm-units")
 
 
 def check_above_pole(sweeps: tuple[Sweep, ...], wlf: Wlf, source: str) -> None:

@@ -8,7 +8,8 @@ import numpy as np
 
 from ..study import FractionalZener
 from .compound import surrogate_modulus
-from .sweeps import COLUMNS, Sweep
+from .sweep import Sweep
+from .sweeps import COLUMNS
 from .wlf import relative_shift
 
 TEMPERATURES = (5.0, 10.0, 22.0, 35.0, 45.0, 60.0)  # degC

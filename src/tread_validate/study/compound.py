@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, FiniteFloat, model_validator
 
-from ..fields import FileName, NonNegative, PoissonsRatio, Positive, Sourced, Strict
+from ..fields import FileName, Line, NonNegative, PoissonsRatio, Positive, Sourced, Strict
 
 
 class Wlf(Strict):
@@ -81,11 +81,35 @@ class PronyFile(CompoundBase):
     file: FileName
 
 
+class SweepColumns(Strict):
+    """Which column of an export is what, by heading or number from 1, where the headings leave a doubt."""
+
+    temperature: Line | None = None
+    frequency: Line | None = None
+    storage: Line | None = None
+    loss: Line | None = None
+    complex: Line | None = None
+    tan_delta: Line | None = None
+    phase: Line | None = None
+    set: Line | None = None
+
+
+class SweepUnits(Strict):
+    """Units of an export, whatever its headings say."""
+
+    temperature: Literal["degC", "K", "degF"] | None = None
+    frequency: Literal["Hz", "rad/s", "kHz"] | None = None
+    modulus: Literal["Pa", "kPa", "MPa", "GPa"] | None = None
+    phase: Literal["deg", "rad"] | None = None
+
+
 class SweepFile(CompoundBase):
     """Raw isothermal sweeps of a dynamic mechanical analyser, fitted by the pipeline."""
 
     kind: Literal["sweeps"]
     file: FileName
+    columns: SweepColumns = SweepColumns()
+    units: SweepUnits = SweepUnits()
     fit: FitSettings = FitSettings()
 
 

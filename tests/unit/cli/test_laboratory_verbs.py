@@ -133,7 +133,7 @@ def test_records_of_several_speeds_make_the_table_that_regress_reads(
         ["fit-prony", "{sweeps}", "--ts", "200"],
         ["fit-prony", "{sweeps}", "--band", "9", "1"],
         ["fit-prony", "{sweeps}", "--times", "odd"],
-        ["fit-prony", "{sweeps}", "--modulus-unit", "psi"],
+        ["fit-prony", "{sweeps}", "--modulus-unit", "bar"],
         ["fit-prony", "{sweeps}", "--origin", "measured"],
         ["fit-friction", "{sweeps}"],
         ["fit-friction", "{table}", "--hold", "beta"],

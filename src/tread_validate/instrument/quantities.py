@@ -1,0 +1,96 @@
+"""What an instrument measures: the names and units under which exports write each quantity."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class Unit(NamedTuple):
+    """value in SI = factor * number + offset."""
+
+    factor: float
+    offset: float = 0.0
+
+
+PRESSURE = {"pa": Unit(1.0), "kpa": Unit(1e3), "mpa": Unit(1e6), "gpa": Unit(1e9), "n/mm2": Unit(1e6),
+            "n/mm^2": Unit(1e6), "n/mm²": Unit(1e6), "psi": Unit(6894.757293168), "n/m2": Unit(1.0)}  # fmt: skip
+FREQUENCY = {"hz": Unit(2 * math.pi), "rad/s": Unit(1.0), "khz": Unit(2e3 * math.pi), "rads": Unit(1.0),
+             "rad/sec": Unit(1.0), "rad_s": Unit(1.0), "rad.s-1": Unit(1.0)}  # fmt: skip
+TEMPERATURE = {name: Unit(1.0) for name in ("c", "°c", "degc", "deg c", "deg.c", "celsius", "ºc", "˚c")} | {
+    name: Unit(1.0, -273.15) for name in ("k", "kelvin")} | {
+    name: Unit(5.0 / 9.0, -160.0 / 9.0) for name in ("f", "°f", "degf", "fahrenheit")}  # fmt: skip
+NONE = {"": Unit(1.0), "-": Unit(1.0), "1": Unit(1.0), "[-]": Unit(1.0)}
+STRAIN = {"%": Unit(0.01), "percent": Unit(0.01), "-": Unit(1.0), "1": Unit(1.0), "m/m": Unit(1.0), "strain": Unit(1.0)}
+SPEED = {"m/s": Unit(1.0), "m_s": Unit(1.0), "mm/s": Unit(1e-3), "mm_s": Unit(1e-3), "cm/s": Unit(1e-2),
+         "km/h": Unit(1.0 / 3.6), "m/min": Unit(1.0 / 60.0)}  # fmt: skip
+ANGLE = {"deg": Unit(math.pi / 180), "°": Unit(math.pi / 180), "rad": Unit(1.0)}
+OTHER_UNITS = {"s", "min", "h", "n", "kn", "mm", "um", "µm", "m", "g", "v", "ms", "µs", "n/m", "pa.s", "pa·s", "mpa.s",
+               "1/pa", "rpm", "m2/n", "j", "cm"}  # fmt: skip
+UNIT_WORDS = {*PRESSURE, *FREQUENCY, *TEMPERATURE, *NONE, *STRAIN, *SPEED, *ANGLE, *OTHER_UNITS}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity: key, words for it, names in exports (letters, digits and primes only), units, option of its unit."""
+
+    key: str
+    told: str
+    names: tuple[str, ...]
+    units: dict[str, Unit]
+    option: str = ""
+
+
+DMA = (
+    Quantity(
+        "temperature", "temperature",
+        ("temperature", "temp", "t", "sampletemperature", "tsample", "ts", "samptemp"),
+        TEMPERATURE, "--temperature-unit",
+    ),
+    Quantity(
+        "frequency", "frequency",
+        ("frequency", "freq", "f", "angularfrequency", "angfrequency", "angfreq", "omega", "ω", "w"),
+        FREQUENCY, "--frequency-unit",
+    ),
+    Quantity(
+        "storage", "E'",
+        ("storagemodulus", "storage", "estor", "estorage", "e'", "eprime", "estore", "storagemod",
+         "tensilestoragemodulus", "storagemoduluse'", "e'storagemodulus"), PRESSURE, "--modulus-unit",
+    ),
+    Quantity(
+        "loss", "E''",
+        ("lossmodulus", "loss", "eloss", "e''", "eprimeprime", "edoubleprime", "lossmod", "tensilelossmodulus",
+         "lossmoduluse''", "e''lossmodulus"), PRESSURE, "--modulus-unit",
+    ),
+    Quantity(
+        "complex", "|E*|", ("complexmodulus", "e*", "|e*|", "dynamicmodulus", "ecomplex", "absolutemodulus"),
+        PRESSURE, "--modulus-unit",
+    ),
+    Quantity(
+        "tan_delta", "tan delta",
+        ("tandelta", "tand", "tanδ", "tan", "lossfactor", "tandel", "tan(delta)", "tan(d)", "tan(δ)"), NONE,
+    ),
+    Quantity("phase", "delta", ("phase", "phaseangle", "delta", "δ", "lossangle"), ANGLE, "--phase-unit"),
+    Quantity("set", "sweep", ("set", "sweep", "sweepnumber", "sweepno"), NONE),
+)  # fmt: skip
+SHEAR = {"g'", "g''", "gstor", "gloss", "shearstoragemodulus", "shearlossmodulus", "g*", "gstorage", "storagemodulusg'"}
+
+
+WRITTEN = {"pa": "Pa", "kpa": "kPa", "mpa": "MPa", "gpa": "GPa", "hz": "Hz", "rad/s": "rad/s", "degc": "degC", "k": "K",
+           "degf": "degF", "m/s": "m/s", "mm/s": "mm/s", "deg": "deg", "rad": "rad", "%": "%"}  # fmt: skip
+
+
+def choices(units: dict[str, Unit]) -> str:
+    """Return the usual units among `units`, as they are written."""
+    return ", ".join(WRITTEN[name] for name in units if name in WRITTEN) or "none"
+
+
+def bare_name(name: str) -> str:
+    """Return a column's name evened out: lower case, no blanks, dots or underscores, straight primes."""
+    text = name.strip().strip('"').lower()
+    for prime in ("′", "´", "`", "’", "‘"):
+        text = text.replace(prime, "'")
+    text = text.replace("″", "''").replace('"', "''").replace("ʺ", "''")
+    return re.sub(r"[\s_.\-:#]+", "", text)
