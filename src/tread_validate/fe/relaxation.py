@@ -123,7 +123,7 @@ def gauss_rule(nodes: Floats, weights: Floats, points: int) -> tuple[Floats, Flo
 
 
 def step_coefficients(times: Floats, weights: Floats, dt: float) -> tuple[Floats, Floats]:
-    """Return decay (n,) and gain (n, 2) of the recursion for a step `dt`."""
+    """Return decay (n,) and gain (n, 2) of the recursion for a step `dt`: Eq. (1) of the paper, term by term."""
     ratio = dt / times
     decay = np.exp(-ratio)
     mean = -np.expm1(-ratio) / ratio

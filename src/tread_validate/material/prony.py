@@ -1,4 +1,7 @@
-"""A Prony series: the relaxation modulus of a linear viscoelastic solid as a sum of exponentials."""
+"""A Prony series: the relaxation modulus of a linear viscoelastic solid as a sum of exponentials.
+
+Eq. (2) of the paper, and Eq. (3) for its storage and loss moduli.
+"""
 
 from __future__ import annotations
 

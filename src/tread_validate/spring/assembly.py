@@ -1,4 +1,4 @@
-"""From one element's history to the block: the convolution with the width profile.
+"""From one element's history to the block, Eq. (9) of the paper backwards: the convolution with the width profile.
 
 All elements of one row share one history, shifted in time by s/V, so that
 ``N(t) = int w(s) p(t - s/V) ds``. With w piecewise linear with jumps, two integrations by parts leave a sum over w's

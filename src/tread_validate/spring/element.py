@@ -3,6 +3,9 @@
 Forces are per unit of face area: pressure p = F_r n/A_s and shear q = F_l n/A_s, so that one history serves elements
 of any width. Between two nodes of the record the solver takes sub-steps of the node step over a power of two; an
 event (slip begins, slip ends, release) is narrowed down to the node step over 4096.
+
+The springs' forces are Eq. (10) of the paper with the stiffnesses of Eq. (8) over the area, E/h_t and G/h_t; the switch
+between stick and slip is Eq. (12).
 """
 
 from __future__ import annotations

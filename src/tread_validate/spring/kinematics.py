@@ -1,8 +1,8 @@
 """Where one element's foot B and contact point C are, and its spring lengths (section 4.2 and Fig. 11 of the paper).
 
 The neutral line is n = (sin theta, -cos theta), the belt's direction t = (cos theta, sin theta); with BC the vector
-from foot to contact point, delta = BC.n = L cos(gamma) and lambda = BC.t = L sin(gamma). A contact point is named by
-its place c on the road: x on the plane, the angle from the top on the big wheel.
+from foot to contact point, delta = BC.n = L cos(gamma) and lambda = BC.t = L sin(gamma): Eqs. (6) and (7) of the paper,
+whose angles phi and gamma are never formed. A contact point is named by its place c on the road: x on the plane, the angle from the top on the big wheel.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The hereditary integral F(t) = int E(t-s) du as a recursion over steps.
+"""The hereditary integral F(t) = int E(t-s) du as a recursion over steps: Eq. (1) of the paper.
 
 Within a step the rate of the input is the parabola that has the true rate at both ends and the true mean, so that
 the input itself is a cubic. With x = dt/tau_i and the moments ``M_j = int_0^1 z^j exp(-x (1-z)) dz``,

@@ -1,6 +1,6 @@
 """One sub-step of slip: the lumped mass under spring and friction, by an L-stable implicit method.
 
-``m lambda'' + F_l = sign(V1 - lambda') mu_k F_r`` (Eq. 12 of the paper) is stiff, for the friction law alone relaxes
+``m lambda'' + F_l = sign(V1 - lambda') mu_k F_r`` (Eq. (12) of the paper) is stiff, for the friction law alone relaxes
 within a microsecond, and it must not ring. Alexander's two-stage SDIRK method (SIAM J. Numer. Anal. 14 (1977)
 1006-1021; order 2, L-stable, stiffly accurate) is used, with one scalar solve a stage (Newton, or bisection where it
 strays); the springs' memory in it is that of the sticking element. With m = 0 a stage is the massless balance

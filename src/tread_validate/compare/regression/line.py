@@ -69,7 +69,7 @@ class Regression:
 
 
 def fit_line(x: NDArray[np.float64], force: NDArray[np.float64], level: float = LEVEL) -> Fit:
-    """Fit F = F0 (1 + a x) by ordinary least squares.
+    """Fit F = F0 (1 + a x), Eq. (4) of the paper, by ordinary least squares.
 
     Parameters
     ----------
