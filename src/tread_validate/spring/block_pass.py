@@ -168,8 +168,7 @@ def prepare(case: Case, mass_factor: float = 1.0) -> BlockPass:
     Per unit of face area, so that the elements may be of any width: E(t) and G = E/(2 (1 + nu)) of Eq. (8) of the
     paper, and the lumped mass m = M/(2n), Eq. (11), as rho h_t/2, which `mass_factor` scales.
 
-    Raises `InputError` for a path, an interference or a data file
-    that will not do.
+    Raises `InputError` for a path, an interference or a data file that will not do.
     """
     path = path_of(case)
     series, friction = series_of(case), law_of(case)

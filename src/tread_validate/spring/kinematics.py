@@ -2,7 +2,8 @@
 
 The neutral line is n = (sin theta, -cos theta), the belt's direction t = (cos theta, sin theta); with BC the vector
 from foot to contact point, delta = BC.n = L cos(gamma) and lambda = BC.t = L sin(gamma): Eqs. (6) and (7) of the paper,
-whose angles phi and gamma are never formed. A contact point is named by its place c on the road: x on the plane, the angle from the top on the big wheel.
+whose angles phi and gamma are never formed. A contact point is named by its place c on the
+road: x on the plane, the angle from the top on the big wheel.
 """
 
 from __future__ import annotations
