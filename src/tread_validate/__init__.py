@@ -15,7 +15,7 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # the front door: each name loads its part of the package when it is first used, so that `import` itself is quick
 _DOOR = {

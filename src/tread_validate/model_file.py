@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from .errors import InputError, one_line
 from .yaml_text import read_yaml
@@ -49,9 +50,23 @@ def first_fault(error: ValidationError, where: object, data: Any, section: str =
         return InputError(place, "values that do not fit", message)
     found = fault.get("input")
     shown = one_line(repr(found), 80)
-    return InputError(
-        place, shown, one_line(fault["msg"]).removeprefix("Input should be ").replace("Input should", "it to")
-    )
+    same = [item for item in faults if item["input"] is found and _key(item["loc"], data) == _key(fault["loc"], data)]
+    return InputError(place, shown, _expected(same))
+
+
+def _expected(faults: list[ErrorDetails]) -> str:
+    """Return what would have been right, in words, of the branches of a union that refuse one value.
+
+    Where a number is out of its range, the branches that want another type are left out, as those that want a list are.
+    """
+    wrong_type = ("_type", "_parsing")
+    plain = [item for item in faults if item["type"] not in ("tuple_type", "list_type")] or faults
+    ranged = [item for item in plain if not item["type"].endswith(wrong_type) and item["type"] != "literal_error"]
+    if ranged:
+        plain = ranged + [item for item in plain if item["type"] == "literal_error"]
+    said = [one_line(item["msg"]).partition(", unable to")[0] for item in plain]
+    said = [text.removeprefix("Input should be ").replace("Input should", "it to") for text in said]
+    return " or ".join(dict.fromkeys(said))
 
 
 def _reachable(location: tuple[int | str, ...], data: Any) -> int:

@@ -13,7 +13,6 @@ KPA = 1e3
 DEG = math.pi / 180.0
 RPM = 2.0 * math.pi / 60.0
 PERCENT = 1e-2
-GRAM = 1e-3
 
 DECK_UNITS = "mm, tonne, s, MPa, N, degC"
 DECK_LENGTH = 1e3  # m -> mm

@@ -195,11 +195,66 @@ def test_source_is_fixed_form_of_72_columns_in_plain_ascii(kind: str) -> None:
 def test_properties_in_the_deck_are_those_of_the_law(
     rig_case: Case, coarse: Callable[[Case], Case], tmp_path: Path
 ) -> None:
-    """Written with 13 digits, read back as numbers: 1e-12."""
+    """Written with 13 digits, read back as numbers: 1e-12. The last: half of a layer of 3.2 mm of 1e-9 t/mm3."""
     case = coarse(rig_case)
     deck.write(case, tmp_path)
     block = next(read_deck(tmp_path / f"{case.case_id}.inp").named("FRICTION"))
     numbers = [float(text) for line in block.data for text in line.fields]
     assert block.parameters["USER"] == "FRIC"
     assert int(block.value("PROPERTIES")) == len(numbers)
-    np.testing.assert_allclose(numbers, properties(law(case.friction, case.root)), rtol=1e-12)
+    np.testing.assert_allclose(numbers, properties(law(case.friction, case.root), 1.6e-9), rtol=1e-12)
+
+
+MASS_PER_AREA = 4e-10  # t/mm2: half of a layer of 0.8 mm
+
+
+@pytest.mark.parametrize("kind", LAWS)
+def test_a_sliding_point_feels_the_law_at_the_speed_that_friction_leaves_it(kind: str, vfric: Load) -> None:
+    """F = mu(p, v) N and v = (stick - F) dt/m hold together to 1e-9 of N, or F = stick and the point is at rest.
+
+    Stick forces from the static limit to a hundred times as much, and a point that slipped before below that limit.
+    """
+    friction = LAWS[kind]
+    normal = 0.4 * AREA
+    stick = friction.static_coefficient * normal * np.concatenate([[0.2, 0.5, 0.9], np.geomspace(1.01, 100.0, 40)])
+    state = np.ones((stick.size, 1))
+    nodes = np.arange(1, stick.size + 1)
+    force = -vfric(kind)(
+        np.array(properties(friction, MASS_PER_AREA)), stick, np.full(stick.size, normal),
+        np.tile([[5e3 * DT, 0.0]], (stick.size, 1)), np.full(stick.size, AREA), nodes, DT, state=state,
+    )[0]  # fmt: skip
+    speed = (stick - force) * DT / (MASS_PER_AREA * AREA) * 1e-3
+    law_force = np.array([float(friction.kinetic(0.4e6, v)) for v in speed]) * normal
+    stopped = force == stick
+    np.testing.assert_array_equal(state[:, 0], np.where(stopped, 0.0, 1.0))
+    assert (law_force[stopped] >= stick[stopped]).all()
+    np.testing.assert_allclose(force[~stopped], law_force[~stopped], atol=1e-9 * normal)
+
+
+def test_one_point_pulled_by_a_spring_over_a_moving_road_slips_by_the_rule(vfric: Load) -> None:
+    """A massless pull that grows from 0: it holds to mu_s N, drops to mu_k N, and slips until it can be stopped.
+
+    mu_s 0.9, mu_k 0.5, N = 1 N: a stick force of 0.9 holds; 0.91 slips at 0.5; then 0.8, below the static limit, still
+    slips at 0.5, for the point has not come to rest; 0.4 stops it; and 0.8 holds again.
+    """
+    friction = coulomb_law(0.5, 0.9)
+    props = np.array(properties(friction, MASS_PER_AREA))
+    state = np.zeros((1, 1))
+    found = []
+    for stick in (0.9, 0.91, 0.8, 0.4, 0.8):
+        force = vfric("coulomb")(
+            props, np.array([stick]), np.ones(1), np.array([[DT, 0.0]]), np.array([AREA]), np.array([1]), DT,
+            state=state,
+        )  # fmt: skip
+        found.append((-force[0, 0], state[0, 0]))
+    assert found == [(0.9, 0.0), (0.5, 1.0), (0.5, 1.0), (0.4, 0.0), (0.8, 0.0)]
+
+
+def test_a_point_that_left_the_road_is_at_rest_when_it_comes_back(vfric: Load) -> None:
+    """Of three slipping nodes only the second touches: the others' state is 0 afterwards."""
+    state = np.ones((3, 1))
+    vfric("coulomb")(
+        np.array(properties(coulomb_law(0.5, 0.9), MASS_PER_AREA)), np.array([2.0]), np.ones(1),
+        np.array([[DT, 0.0]]), np.full(3, AREA), np.array([2]), DT, state=state,
+    )  # fmt: skip
+    np.testing.assert_array_equal(state[:, 0], [0.0, 1.0, 0.0])

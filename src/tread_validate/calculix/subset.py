@@ -24,7 +24,6 @@ IGNORED = {
     "VARIABLE MASS SCALING": "there is no mass in a quasi-static run",
     "HYPERELASTIC": "only *ELASTIC is translated",
     "EXPANSION": "temperatures are not translated",
-    "DAMPING": "there is no damping in a quasi-static run",
     "EQUATION": "constraint equations are not translated",
     "TIE": "ties are not translated",
     "CLOAD": "loads are not translated",
@@ -33,6 +32,7 @@ IGNORED = {
 }
 DROPPED = {
     "DENSITY": "inertia (the run is quasi-static)",
+    "DAMPING": "damping of the material (the run is quasi-static)",
     "BULK VISCOSITY": "bulk viscosity (the run is quasi-static)",
     "SECTION CONTROLS": "hourglass control of the deck (CalculiX has its own)",
     "OUTPUT": "output requests (the total forces are printed)",

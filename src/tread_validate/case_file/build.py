@@ -131,6 +131,7 @@ def _block(case: Case, path: BlockPath) -> doc.Block:
         columns=doc.Columns(
             s_m=_numbers(s),
             arc_offset_m=_numbers(path.columns.arc_offset(s)),
+            x_offset_m=_numbers(path.columns.x_offset(s)),
             height_m=_numbers(path.columns.column_height(s)),
         ),
     )

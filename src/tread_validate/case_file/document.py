@@ -36,7 +36,8 @@ class Conventions(Frozen):
     block: str = "s = 0 is the leading end, which is ahead on the path; s grows towards the trailing end"
     column: str = (
         "the foot of the column at s is on the mount line at arc first_touch_arc_m + arc_speed_m_s t - "
-        "arc_offset_m(s); its stress-free end is at (x + h sin(slope), y - h cos(slope)), h = height_m(s)"
+        "arc_offset_m(s), x_offset_m(s) added to x; its stress-free end is at (x + h sin(slope), y - h cos(slope)), "
+        "h = height_m(s)"
     )
     normal_force: str = "force of the road on the block along +y (rig: towards the block wheel's axle), compression > 0"
     tangential_force: str = "force of the road on the block, positive towards the leading edge (-x)"
@@ -114,6 +115,7 @@ class Columns(Frozen):
 
     s_m: Numbers
     arc_offset_m: Numbers
+    x_offset_m: Numbers = Field(description="added to x of the foot; 0 where the block rolls")
     height_m: Numbers
 
 
@@ -161,7 +163,9 @@ class Path(Named):
     parameters: dict[str, Constant]
     first_touch_arc_m: FiniteFloat = Field(description="arc of the leading end's foot at t = 0")
     arc_speed_m_s: Positive = Field(description="rate at which the arc grows")
-    mount_speed_ratio: Positive = Field(description="speed of the foot along its line over the arc's rate")
+    mount_speed_ratio: NonNegative = Field(
+        description="speed of the foot along its line over the arc's rate; 0 where the block does not roll"
+    )
     samples: PathSamples
 
 

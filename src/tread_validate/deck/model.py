@@ -68,7 +68,7 @@ def build(case: Case) -> Deck:
     mesh = block_mesh(case.block, case.deck)
     pass_time = math.ceil(path.contact_duration * MARGIN / 1e-5) * 1e-5
     friction = law(case.friction, case.root)
-    user = user_friction(friction)
+    user = user_friction(friction, sections.face_mass(case, mesh))
     motion, placement, tables = _motion(case, mesh, path, pass_time)
     before = [
         *_opening(case),

@@ -65,6 +65,13 @@ def material(case: Case) -> list[str]:
         keyword("ELASTIC", MODULI="INSTANTANEOUS"),
         f"{number(series.instantaneous_modulus * DECK_STRESS, 10)}, {number(compound.poissons_ratio)}",
     ]
+    if case.deck.stiffness_damping_us > 0.0:
+        lines += [
+            comment(
+                "Loss above the band of the Prony series, without which sliding rubber flutters at mesh frequencies"
+            ),
+            keyword("DAMPING", BETA=number(case.deck.stiffness_damping_us * 1e-6)),
+        ]
     if ratios.size:
         lines += [
             comment("g_i, k_i, tau_i: constant Poisson's ratio means one ratio for shear and bulk"),
@@ -143,9 +150,15 @@ def user_friction(properties: Sequence[float]) -> list[str]:
     """Contact with VFRIC."""
     return [
         keyword("SURFACE INTERACTION", NAME="TREAD_ROAD"),
-        keyword("FRICTION", USER="FRIC", PROPERTIES=len(properties)),
+        keyword("FRICTION", USER="FRIC", PROPERTIES=len(properties), DEPVAR=1),
         *reals(properties, digits=13),
     ]
+
+
+def face_mass(case: Case, block: BlockMesh) -> float:
+    """Return the lumped mass of the contact face's nodes per area, t/mm2: half of that of the layer at the face."""
+    layer = float(block.u[block.u > 0.0].min()) * case.block.height_mm
+    return 0.5 * case.compound.density_kg_m3 * DECK_DENSITY * layer
 
 
 def constant_friction(coefficient: float) -> list[str]:

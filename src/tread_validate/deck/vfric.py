@@ -29,14 +29,17 @@ class UserFriction:
     properties: tuple[float, ...]
 
 
-def user_friction(law: FrictionLaw) -> UserFriction:
-    """Return VFRIC and its properties for `law`."""
-    return UserFriction(source(law.kind), properties(law))
+def user_friction(law: FrictionLaw, mass_per_area: float = 0.0) -> UserFriction:
+    """Return VFRIC and its properties for `law` and the face nodes' mass per area, t/mm2."""
+    return UserFriction(source(law.kind), properties(law, mass_per_area))
 
 
-def properties(law: FrictionLaw) -> tuple[float, ...]:
-    """Return the properties of VFRIC for `law`: the static coefficient first, then the law's own."""
-    return law.deck_properties
+def properties(law: FrictionLaw, mass_per_area: float = 0.0) -> tuple[float, ...]:
+    """Return the properties of VFRIC: the static coefficient, the law's own, and the face nodes' mass per area (t/mm2).
+
+    With a mass of 0 the law is taken at the slip speed with which a point arrives, not at the one it is left with.
+    """
+    return (*law.deck_properties, mass_per_area)
 
 
 @cache
@@ -48,9 +51,14 @@ def source(kind: str) -> str:
         "c     For ABAQUS/Explicit, contact pairs, kinematic, double precision.\n"
         "c     Units of the deck: mm, tonne, s, MPa, N.\n"
         f"c     Law: {kind}. Its constants are the properties in the deck.\n"
-        "c     Sticks while the force that stops the slip is no more than\n"
-        "c     props(1) times the normal force; else the force is mu times\n"
-        "c     the normal force, and never more than what stops the slip.\n"
+        "c     A point at rest stays so while the force that stops its slip is\n"
+        "c     no more than props(1) times the normal force. Else it slips: the\n"
+        "c     force is mu times the normal force, mu at the pressure and the\n"
+        "c     slip speed that this force leaves the point, until mu times the\n"
+        "c     normal force can stop it; then it is at rest again.\n"
+        "c     props(nProps) is the mass of the face nodes per area: with it\n"
+        "c     fStickForce tells the slip speed that a force leaves.\n"
+        "c     statev(1,n) is 1 where slave node n slips.\n"
         "c\n"
     )
     frame = (folder / "vfric.f").read_text(encoding="utf-8")

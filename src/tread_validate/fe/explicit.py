@@ -41,7 +41,7 @@ from .pairs import PairData, gather_pairs
 from .relaxation import step_coefficients
 from .step_kernel import evaluate_amplitudes
 from .steps import Step
-from .user_friction import UserRoutine, compile_vfric
+from .user_friction import UserRoutine
 
 Floats = NDArray[np.float64]
 Progress = Callable[[float, float], None]
@@ -335,15 +335,3 @@ class Simulation:
                 impact, external, total,
             )
         )  # fmt: skip
-
-
-def simulate(model: Model, user: str | None = None, threads: int = 1, progress: Progress | None = None) -> Simulation:
-    """Run a model and return the finished simulation; `user` is the Fortran file of VFRIC."""
-    routine = None
-    if model.needs_user_routine:
-        if user is None:
-            raise InputError(model.deck.path.name, "*FRICTION, USER and no user routine", "--user vfric.f")
-        routine = compile_vfric(user)
-    simulation = Simulation(model, routine, threads)
-    simulation.run(progress)
-    return simulation

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..files import write_text
 from ..units import MM
 from ..yaml_text import read_yaml
 from .trace import LevelledTrace, RidgeHeights
@@ -44,13 +43,6 @@ def belt_yaml(traces: tuple[LevelledTrace, ...], origin: str, source: str, prove
         height = ", ".join(f"{value / MM:.7f}".rstrip("0").rstrip(".") for value in trace.height + 0.0)
         lines += [f"  {trace.name}:", f"    x_mm: [{x}]", f"    height_mm: [{height}]"]
     return "\n".join(lines) + "\n"
-
-
-def write_belt(
-    path: Path | str, traces: tuple[LevelledTrace, ...], origin: str, source: str, provenance: Mapping[str, str]
-) -> None:
-    """Write a belt file, atomically."""
-    write_text(path, belt_yaml(traces, origin, source, provenance))
 
 
 def read_belt(path: Path | str) -> dict[str, tuple[Array, Array]]:

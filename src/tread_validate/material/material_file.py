@@ -10,7 +10,6 @@ import numpy as np
 from pydantic import Field
 
 from ..errors import InputError, one_line
-from ..files import write_text
 from ..model_file import read_model
 from ..study import PronyCompound, Wlf
 from ..units import MPA
@@ -100,11 +99,6 @@ def material_yaml(
         lines.append(f"{name}:" if table else f"{name}: {{}}")
         lines += [f"  {key}: {_scalar(value)}" for key, value in table.items()]
     return "\n".join(lines) + "\n"
-
-
-def write_material(path: Path | str, text: str) -> None:
-    """Write a material file, atomically."""
-    write_text(path, text)
 
 
 def _exponent(value: float) -> str:

@@ -15,7 +15,6 @@ from .document import Study
 from .grid import expand
 
 LARGEST_FILE = 1_000_000
-MOST_CASES = 200_000
 
 
 @dataclass(frozen=True)

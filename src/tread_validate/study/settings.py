@@ -31,6 +31,10 @@ class DeckSettings(Strict):
     )
     hourglass: Literal["RELAX STIFFNESS", "STIFFNESS", "VISCOUS", "ENHANCED", "COMBINED"] = "STIFFNESS"
     bulk_viscosity: tuple[NonNegative, NonNegative] = (0.06, 1.2)
+    stiffness_damping_us: NonNegative = Field(
+        0.2,
+        description="stress per instantaneous stiffness and strain rate: the compound's loss above its Prony series",
+    )
     history_interval_us: Positive = 20.0
     field_frames: Annotated[int, Field(ge=1, le=1000)] = 40
     constant_friction_variant: bool = Field(True, description="also write the deck with built-in constant friction")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tread_validate import deck
+from tread_validate.case_file.build import case_file
 from tread_validate.deck.lint import lint
 from tread_validate.deck.mesh import block_mesh
 from tread_validate.deck.placement import LEAD_IN, mount_tables
@@ -113,6 +114,16 @@ def test_mount_tables_integrate_to_the_path(case):
         )
         path_y = 1e3 * path.at(table.s * MM, table.time_y - LEAD_IN).y
         np.testing.assert_allclose(travel, path_y - path_y[0], atol=1e-4)
+
+
+def test_case_file_of_a_track_says_where_every_column_is(case):
+    """Place and height of the free face rebuilt from the file: linear between samples, 1e-7 m."""
+    document, path = case_file(case), path_of(case)
+    columns, samples = document.block.columns, document.path.samples
+    assert columns.x_offset_m[0] == pytest.approx(-columns.x_offset_m[-1]) == pytest.approx(10.0 * MM)
+    time = np.linspace(0.0, document.expected_duration_s, 29)
+    y = np.interp(document.path.first_touch_arc_m + document.path.arc_speed_m_s * time, samples.arc_m, samples.y_m)
+    np.testing.assert_allclose(document.block.height_m - y, path.indentation(0.01, time), atol=1e-7)
 
 
 def test_a_block_that_does_not_roll_has_no_creep(tmp_path):

@@ -76,6 +76,23 @@ def test_file_that_is_no_study_is_one_line(tmp_path, content, found):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("creep", "place", "expected"),
+    [
+        (25, "", "less than 20 or 'free_rolling'"),
+        ([0.3, -30.0], "[1]", "greater than -20 or 'free_rolling'"),
+        ("fast", "", "a valid number"),
+    ],
+)
+def test_creep_out_of_range_is_told_the_range_and_the_word(altered_study, creep, place, expected):
+    """A union has more than one way to be right; a number out of range is told the range first."""
+    with pytest.raises(InputError) as caught:
+        load_study(altered_study({"runs.1.creep_percent": creep}))
+    assert f"runs[1].creep_percent{place}: got " in str(caught.value)
+    assert expected in str(caught.value)
+    assert "free_rolling" in str(caught.value)
+
+
 def test_missing_study_is_exit_code_2(tmp_path, capsys):
     assert run(["cases", str(tmp_path / "none.yaml")]) == 2
     assert "no such file" in capsys.readouterr().err

@@ -26,39 +26,58 @@ c
      &  jConMstid(nFacNod,nContact), tempSlv(nContact),
      &  preDefSlv(nContact,nPred), tempMst(numDefTfv),
      &  preDefMst(numDefTfv,nPred)
-      parameter (zero = 0.d0)
+      parameter (zero = 0.d0, half = 0.5d0, one = 1.d0)
 c
-      do 30 k = 1, nContact
-         do 10 i = 1, nFricDir
+c     statev(1,n): 1 where slave node n slips, else 0; the nodes that
+c     slipped are marked -1 until they are met again or found free
+      do 10 n = 1, nSlvNod
+         if (statev(1,n) .gt. half) statev(1,n) = -one
+   10 continue
+      do 50 k = 1, nContact
+         do 20 i = 1, nFricDir
             fTangential(i,k) = zero
-   10    continue
+   20    continue
+         n = jConSlvid(k)
          stick = fStickForce(k)
          if (stick .gt. zero .and. fNormal(k) .gt. zero) then
-            if (stick .le. props(1)*fNormal(k)) then
-c              sticks: the whole force that stops the slip
+            if (statev(1,n) .gt. -half .and.
+     &          stick .le. props(1)*fNormal(k)) then
+c              at rest, and stays so
                fTangential(1,k) = -stick
             else
 c              slips: contact pressure and slip speed, then the law
-               area = areaSlv(jConSlvid(k))
+               area = areaSlv(n)
                press = zero
                if (area .gt. zero) press = fNormal(k)/area
                slip2 = zero
-               do 20 i = 1, nDir
+               do 30 i = 1, nDir
                   slip2 = slip2 + dSlipFric(i,k)**2
-   20          continue
+   30          continue
                speed = zero
                if (dTimCur .gt. zero) speed = sqrt(slip2)/dTimCur
-               fKin = fricmu(nProps, props, press, speed)*fNormal(k)
-               fTangential(1,k) = -min(fKin, stick)
+               rate = zero
+               xmass = props(nProps)*area
+               if (xmass .gt. zero) rate = dTimCur/xmass
+               fTangential(1,k) = -fricsl(nProps, props, press, speed,
+     &            fNormal(k), stick, rate)
+c              it has come to rest when all of the force was needed
+               if (-fTangential(1,k) .lt. stick) then
+                  statev(1,n) = one
+               else
+                  statev(1,n) = zero
+               end if
             end if
          end if
-   30 continue
+   50 continue
+      do 60 n = 1, nSlvNod
+         if (statev(1,n) .lt. -half) statev(1,n) = zero
+   60 continue
 c
 c     The arguments that no law here needs are named once, out of
 c     reach, so that a compiler's warning about one means something.
       if (nContact .lt. 0) then
          unused = timStep + timGlb + frictionWork + shape(1,1)
-     &      + statev(1,1) + fTangPrev(1,1) + coordSlv(1,1)
+     &      + fTangPrev(1,1) + coordSlv(1,1)
      &      + coordMst(1,1) + dirCosSl(1,1) + dircosN(1,1)
      &      + tempSlv(1) + preDefSlv(1,1) + tempMst(1)
      &      + preDefMst(1,1)
@@ -67,5 +86,41 @@ c     reach, so that a compiler's warning about one means something.
      &      + ichar(surfSlv(1:1)) + ichar(surfMst(1:1))
          fTangential(1,1) = unused + dble(iunused)
       end if
+      return
+      end
+c
+c     Friction of a point that slips: F = mu(p, v) N with the speed that
+c     F leaves it, v = (stick - F) rate, and stick if that stops it.
+c     Fixed-point steps where they gain, else halving. Without a rate
+c     the law is taken at the speed given.
+c
+      function fricsl(nProps, props, press, speed, fn, stick, rate)
+      include 'vaba_param.inc'
+      dimension props(nProps)
+      f = min(fricmu(nProps, props, press, speed)*fn, stick)
+      fricsl = f
+      if (rate .le. 0.d0) return
+      if (fricmu(nProps, props, press, 0.d0)*fn .ge. stick) then
+         fricsl = stick
+         return
+      end if
+      below = 0.d0
+      above = stick
+      before = 2.d0*stick
+      do 10 i = 1, 200
+         g = fricmu(nProps, props, press, (stick - f)*rate)*fn - f
+         if (abs(g) .le. 1.d-11*fn) goto 20
+         if (g .gt. 0.d0) then
+            below = f
+         else
+            above = f
+         end if
+         if (above - below .le. 1.d-14*stick) goto 20
+         f = f + g
+         if (f .le. below .or. f .ge. above .or.
+     &       abs(g) .gt. 0.5d0*before) f = 0.5d0*(below + above)
+         before = abs(g)
+   10 continue
+   20 fricsl = f
       return
       end
