@@ -25,7 +25,7 @@ BYTE_ORDER_MARKS = ((b"\xff\xfe", "UTF-16"), (b"\xfe\xff", "UTF-16"))
 
 
 @dataclass(frozen=True)
-class Columns:
+class ColumnTable:
     """Named columns of one table.
 
     Attributes
@@ -61,7 +61,9 @@ class Columns:
             raise InputError(f"{self.where(row)}: {name}", found, expected)
 
 
-def read_columns(path: Path | str, needed: Sequence[str], optional: Iterable[str] = (), gaps: bool = False) -> Columns:
+def read_columns(
+    path: Path | str, needed: Sequence[str], optional: Iterable[str] = (), gaps: bool = False
+) -> ColumnTable:
     """Read a table with a header line, separated by commas, semicolons or tabs, ``#`` lines before it.
 
     A UTF-8 byte-order mark at the start is taken off. Decimal commas are read where the separator is a semicolon or a
@@ -96,14 +98,14 @@ def read_columns(path: Path | str, needed: Sequence[str], optional: Iterable[str
     values = _quickly(lines, line, separator, header, wanted)
     if values is not None:
         _check_bounds(path, values, line)
-        return Columns(values, line, str(path), comments)
+        return ColumnTable(values, line, str(path), comments)
     values = {}
     decimal: list[str] = []
     for name in wanted:
         column = header.index(name)
         values[name] = np.array([_number(path, number, name, cells[column], gaps, decimal) for number, cells in rows])
     _check_bounds(path, values, line)
-    return Columns(values, line, str(path), comments)
+    return ColumnTable(values, line, str(path), comments)
 
 
 def _check_bounds(path: Path | str, values: Mapping[str, NDArray[np.float64]], line: NDArray[np.int64]) -> None:

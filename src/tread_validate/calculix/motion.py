@@ -41,7 +41,7 @@ class Velocity:
 
 
 @dataclass(frozen=True)
-class Motion:
+class PlaneMotion:
     """A rigid motion in the x-y plane: a reference point that travels and a turn about it.
 
     Attributes
@@ -113,7 +113,7 @@ class _Prescribed:
 
 def read_motions(
     deck: Deck, sets: dict[str, tuple[int, ...]], places: dict[int, tuple[float, float, float]]
-) -> tuple[dict[int, tuple[int, ...]], dict[int, Motion], Motion, float | None]:
+) -> tuple[dict[int, tuple[int, ...]], dict[int, PlaneMotion], PlaneMotion, float | None]:
     """Return mount rows, their motions, the road's motion and the wheel's radius (None: plane).
 
     Raises
@@ -136,16 +136,18 @@ def read_motions(
     if road_reference is None:
         raise InputError(deck.path, f"no rigid body for surface {road_name}", "a rigid road")
 
-    def motion(reference: str) -> Motion:
+    def motion(reference: str) -> PlaneMotion:
         nodes = sets.get(reference) or ((int(reference),) if reference.isdigit() else ())
         if len(nodes) != 1 or nodes[0] not in places:
             raise InputError(f"{deck.path}: *RIGID BODY, REF NODE", reference, "one node of the deck, or a set of one")
         place = np.array(places[nodes[0]][:2])
-        return Motion(place, (prescribed.of(reference, 1), prescribed.of(reference, 2)), prescribed.of(reference, 6))
+        return PlaneMotion(
+            place, (prescribed.of(reference, 1), prescribed.of(reference, 2)), prescribed.of(reference, 6)
+        )
 
     road = motion(road_reference)
     mount: dict[int, tuple[int, ...]] = {}
-    motions: dict[int, Motion] = {}
+    motions: dict[int, PlaneMotion] = {}
     for reference, name in tied:
         body = motion(reference)
         rows: dict[tuple[float, float], list[int]] = {}
@@ -159,7 +161,7 @@ def read_motions(
             row = len(mount) + 1
             mount[row] = sets[target]
             travel = (prescribed.of(target, 1), prescribed.of(target, 2))
-            motions[row] = Motion(np.array(places[sets[target][0]][:2]), travel, still())
+            motions[row] = PlaneMotion(np.array(places[sets[target][0]][:2]), travel, still())
     if not mount:
         raise InputError(deck.path, "no mount that is tied or moved", "*RIGID BODY, TIE NSET or velocities")
     return mount, motions, road, radius

@@ -14,7 +14,7 @@ from ..files import read_text
 from ..inp import Block, Deck, label, read_deck
 from ..inp.sets import Sets
 from ..inp.table import integer_rows, number_table
-from .motion import Motion, read_motions
+from .motion import PlaneMotion, read_motions
 
 # keyword -> what CalculiX 2.20 does with it
 IGNORED = {
@@ -66,8 +66,8 @@ class ElasticDeck:
         The contact face.
     mount : mapping of row number to node numbers
         Nodes that move alike.
-    motions : mapping of row number to `Motion`
-    road : `Motion` of the road's reference node
+    motions : mapping of row number to `PlaneMotion`
+    road : `PlaneMotion` of the road's reference node
     wheel_radius : float or None
         None for a plane road.
     young, poisson, friction : float
@@ -81,8 +81,8 @@ class ElasticDeck:
     elements: NDArray[np.int64]
     face: tuple[tuple[int, ...], str]
     mount: dict[int, tuple[int, ...]]
-    motions: dict[int, Motion]
-    road: Motion
+    motions: dict[int, PlaneMotion]
+    road: PlaneMotion
     wheel_radius: float | None
     young: float
     poisson: float

@@ -26,7 +26,7 @@ MARGIN = 1.05  # of the pass over the time of geometrical contact: sheared rubbe
 
 
 @dataclass(frozen=True)
-class Deck:
+class WrittenDeck:
     """The files of one run.
 
     Attributes
@@ -56,7 +56,7 @@ class Deck:
     pass_time: float
 
 
-def build(case: Case) -> Deck:
+def build(case: Case) -> WrittenDeck:
     """Return the deck of a case; the same case gives the same bytes.
 
     Raises `InputError` for a case whose free-rolling creep has not been resolved, and whatever its material, friction
@@ -85,7 +85,7 @@ def build(case: Case) -> Deck:
     constant = None
     if case.deck.constant_friction_variant:
         constant = _join([*before, *sections.constant_friction(friction.constant_coefficient), *after])
-    return Deck(
+    return WrittenDeck(
         case_id=case.case_id,
         input_text=_join([*before, *sections.user_friction(user.properties), *after]),
         constant_friction_text=constant,
@@ -97,7 +97,7 @@ def build(case: Case) -> Deck:
     )
 
 
-def write(case: Case, directory: FilePath | str) -> Deck:
+def write(case: Case, directory: FilePath | str) -> WrittenDeck:
     """Build the deck of a case and write ``<id>.inp``, ``<id>-constant-friction.inp``, ``vfric.f``, ``mesh.vtu``."""
     deck = build(case)
     folder = FilePath(directory)
@@ -109,7 +109,7 @@ def write(case: Case, directory: FilePath | str) -> Deck:
     return deck
 
 
-def write_mesh(deck: Deck, file: FilePath | str) -> None:
+def write_mesh(deck: WrittenDeck, file: FilePath | str) -> None:
     """Write the block's mesh (mm) for ParaView."""
     import meshio
 

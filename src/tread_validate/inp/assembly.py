@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from ..errors import InputError
 from .deck import LARGEST_LABEL, Block, DataLine, Lines, label
-from .placement import Motion, instance_motion, moved_nodes, moved_profile, still, system_motion
+from .placement import RigidMotion, instance_motion, moved_nodes, moved_profile, still, system_motion
 from .table import integer_rows
 
 Report = Callable[[str, str, object, str], None]
@@ -296,7 +296,7 @@ class _Resolver:
         return Block(block.keyword, parameters, data, block.file, block.line, block.raw)
 
 
-def _systems(blocks: Iterable[Block], motion: Motion | None = None, first: int = 0) -> Iterable[Block]:
+def _systems(blocks: Iterable[Block], motion: RigidMotion | None = None, first: int = 0) -> Iterable[Block]:
     """Apply ``*SYSTEM`` and the instance's motion to the nodes; everything else passes."""
     place = motion or still()
     local = still()
@@ -317,7 +317,7 @@ def _names(blocks: Iterable[Block]) -> Iterable[str]:
             yield value
 
 
-def _qualified(block: Block, scope: _Scope, motion: Motion, define: bool = True) -> Block:
+def _qualified(block: Block, scope: _Scope, motion: RigidMotion, define: bool = True) -> Block:
     """Return a block of a part as one of the flat deck."""
     parameters = dict(block.parameters)
     own = DEFINES.get(block.keyword)

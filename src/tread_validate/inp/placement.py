@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Motion:
+class RigidMotion:
     """A rigid motion of space: a point x goes to ``turn @ x + shift``.
 
     Attributes
@@ -37,17 +37,17 @@ class Motion:
         """Return the moved points, (n, 3)."""
         return np.asarray(points @ self.turn.T + self.shift, dtype=np.float64)
 
-    def after(self, first: Motion) -> Motion:
+    def after(self, first: RigidMotion) -> RigidMotion:
         """Return this motion applied after another."""
-        return Motion(self.turn @ first.turn, self.turn @ first.shift + self.shift)
+        return RigidMotion(self.turn @ first.turn, self.turn @ first.shift + self.shift)
 
 
-def still() -> Motion:
+def still() -> RigidMotion:
     """Return the motion that moves nothing."""
-    return Motion(np.eye(3), np.zeros(3))
+    return RigidMotion(np.eye(3), np.zeros(3))
 
 
-def instance_motion(block: Block) -> Motion:
+def instance_motion(block: Block) -> RigidMotion:
     """Return where ``*INSTANCE`` puts its part: first the translation, then the rotation about the axis from a to b.
 
     Data lines: ``tx, ty, tz`` and ``ax, ay, az, bx, by, bz, angle`` (degrees), both optional.
@@ -61,18 +61,18 @@ def instance_motion(block: Block) -> Motion:
     if len(lines) > 2:
         raise InputError(lines[2].where, lines[2].text[:40], "a translation and a rotation at most")
     shift = _numbers(lines[0], 3, "a translation") if lines else np.zeros(3)
-    motion = Motion(np.eye(3), shift)
+    motion = RigidMotion(np.eye(3), shift)
     if len(lines) == 2:
         values = _numbers(lines[1], 7, "a rotation")
         axis = values[3:6] - values[:3]
         if not np.linalg.norm(axis) > 0.0:
             raise InputError(lines[1].where, lines[1].text[:60], "two points apart that fix the axis of rotation")
         turn = rotation(axis, float(np.radians(values[6])))
-        motion = Motion(turn, values[:3] - turn @ values[:3]).after(motion)
+        motion = RigidMotion(turn, values[:3] - turn @ values[:3]).after(motion)
     return motion
 
 
-def system_motion(block: Block) -> Motion:
+def system_motion(block: Block) -> RigidMotion:
     """Return where ``*SYSTEM`` puts the nodes that follow.
 
     Data lines: ``ax, ay, az, bx, by, bz`` (origin, a point on the local x axis) and ``cx, cy, cz`` (a point in the
@@ -91,7 +91,7 @@ def system_motion(block: Block) -> Motion:
     origin = first[:3]
     given = len([text for text in lines[0].fields if text])
     if given <= 3:
-        return Motion(np.eye(3), origin)
+        return RigidMotion(np.eye(3), origin)
     x = first[3:] - origin
     in_plane = _numbers(lines[1], 3, "a coordinate") - origin if len(lines) > 1 else np.cross([0.0, 0.0, 1.0], x)
     z = np.cross(x, in_plane)
@@ -99,7 +99,7 @@ def system_motion(block: Block) -> Motion:
         raise InputError(lines[0].where, lines[0].text[:60], "points that fix a coordinate system")
     x /= np.linalg.norm(x)
     z /= np.linalg.norm(z)
-    return Motion(np.column_stack([x, np.cross(z, x), z]), origin)
+    return RigidMotion(np.column_stack([x, np.cross(z, x), z]), origin)
 
 
 def rotation(axis: Floats, angle: float) -> Floats:
@@ -111,7 +111,7 @@ def rotation(axis: Floats, angle: float) -> Floats:
     return np.asarray(np.where(np.abs(turn - tidy) < 1e-15, tidy, turn) + 0.0, dtype=np.float64)
 
 
-def moved_nodes(block: Block, motion: Motion, first_label: int) -> Block:
+def moved_nodes(block: Block, motion: RigidMotion, first_label: int) -> Block:
     """Return a ``*NODE`` block with its labels raised and its coordinates placed, Cartesian.
 
     Raises
@@ -131,7 +131,7 @@ def moved_nodes(block: Block, motion: Motion, first_label: int) -> Block:
     return Block("NODE", parameters, block.data.with_texts(texts), block.file, block.line, block.raw)
 
 
-def moved_profile(block: Block, motion: Motion) -> Block:
+def moved_profile(block: Block, motion: RigidMotion) -> Block:
     """Return an analytical ``*SURFACE`` with the points that fix its axes placed.
 
     Without such points the local x and y are those of the part, swept along its negative z.

@@ -14,6 +14,7 @@ GROUPS = {
     "all": "all cases",
     "rig": "rig",
     "belt": "tyre belt",
+    "track": "flat track",
     "rectangle": "rig, rectangle",
     "parallelogram": "rig, parallelogram",
     "published": "rig, 0.1 and 0.2 mm",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tread_validate.calculix import dialect, read_elastic_deck
-from tread_validate.calculix.motion import Motion, Velocity, still
+from tread_validate.calculix.motion import PlaneMotion, Velocity, still
 from tread_validate.errors import InputError
 
 COULOMB = "      function fricmu(nProps, props, press, speed)\n      fricmu = props(2)\n      end\n"
@@ -63,7 +63,7 @@ def test_integral_of_a_tabled_velocity_is_exact():
 def test_point_fixed_to_the_road_rests_in_the_frame_of_the_road():
     """The frame of a turning and travelling body leaves its own points where they were, to rounding (1e-11 mm)."""
     one = Velocity(np.zeros(1), np.array([3.0]))
-    road = Motion(np.array([1.0, -300.0]), (one, still()), Velocity(np.zeros(1), np.array([-5.0])))
+    road = PlaneMotion(np.array([1.0, -300.0]), (one, still()), Velocity(np.zeros(1), np.array([-5.0])))
     time = np.linspace(0.0, 0.7, 9)
     point = np.array([4.0, 0.5])
     seen = road.seen_from(road.place(point, time), time)
