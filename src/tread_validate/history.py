@@ -15,6 +15,7 @@ from .bounds import first_beyond
 from .errors import InputError, one_line
 from .files import read_text, write_text
 from .provenance import sha256_text
+from .units import IN_MS
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -104,9 +105,9 @@ class History:
 
         ax = axes if axes is not None else pyplot.subplots()[1]
         name = label if label is not None else self.provenance.get("producer", "")
-        (line,) = ax.plot(1e3 * self.time, self.normal_force, label=f"{name} N".strip())
+        (line,) = ax.plot(IN_MS * self.time, self.normal_force, label=f"{name} N".strip())
         if self.gives_tangential:
-            ax.plot(1e3 * self.time, self.tangential_force, "--", color=line.get_color(), label=f"{name} T".strip())
+            ax.plot(IN_MS * self.time, self.tangential_force, "--", color=line.get_color(), label=f"{name} T".strip())
         ax.set_xlabel("time, ms")
         ax.set_ylabel("force, N")
         ax.legend()
@@ -121,7 +122,7 @@ class History:
             else ", T not given"
         )
         return (
-            f"<History {who + ': ' if who else ''}{self.time.size} samples to {1e3 * self.time[-1]:.4g} ms, "
+            f"<History {who + ': ' if who else ''}{self.time.size} samples to {IN_MS * self.time[-1]:.4g} ms, "
             f"peak N {self.normal_force.max():.4g} N{tangential}>"
         )
 

@@ -1,4 +1,4 @@
-"""Unit factors: multiply a value in the named unit to get SI.
+"""Unit factors: multiply a value in the named unit to get SI, or an SI value by ``IN_...`` to get it in the unit.
 
 Inside the package every quantity is SI, angles in rad, temperatures in degC. Decks are in mm, tonne, s, MPa, N.
 """
@@ -13,6 +13,11 @@ KPA = 1e3
 DEG = math.pi / 180.0
 RPM = 2.0 * math.pi / 60.0
 PERCENT = 1e-2
+US = 1e-6
+
+# not 1/MM and so on: a product with a whole power of ten is rounded once
+IN_MM, IN_UM, IN_MS, IN_GRAM = 1e3, 1e6, 1e3, 1e3
+IN_KPA, IN_MPA = 1e-3, 1e-6
 
 DECK_UNITS = "mm, tonne, s, MPa, N, degC"
 DECK_LENGTH = 1e3  # m -> mm

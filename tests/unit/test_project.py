@@ -49,3 +49,15 @@ def test_what_runs_before_a_commit_is_what_make_lint_runs(root: Path) -> None:
     config = yaml.safe_load((root / ".pre-commit-config.yaml").read_text("utf-8"))
     hooks = [hook["entry"].replace(".venv/bin/", "") for repo in config["repos"] for hook in repo["hooks"]]
     assert hooks == re.findall(r"@\$\(BIN\)/(.*)", recipe)
+
+
+def test_recipes_name_what_is_there(root: Path) -> None:
+    """Every file and folder that the page on adding things names exists."""
+    package = Path(tread_validate.__file__).parent
+    names = re.findall(
+        r"`([\w./-]+(?:\.py|\.yaml|\.csv|\.md|/))`", (root / "docs" / "contributing.md").read_text("utf-8")
+    )
+    assert len(names) > 12
+    for name in names:
+        places = [root / name, package / name, *package.rglob(name if "/" not in name else "no-such")]
+        assert any(place.exists() for place in places), name

@@ -34,6 +34,7 @@ def command(
     from .. import deck
     from ..errors import InputError
     from ..study import load_study, with_mesh
+    from ..units import IN_MS
 
     if (case is None) == (not every):
         raise InputError("deck", "both --case and --all" if every else "neither --case nor --all", "one of the two")
@@ -47,5 +48,5 @@ def command(
     for one in (with_mesh(one, {key: value for key, value in mesh.items() if value is not None}) for one in cases):
         written = deck.write(one, output / one.case_id)
         typer.echo(
-            f"{output / one.case_id}: {written.elements.shape[0]} elements, pass {1e3 * written.pass_time:.4g} ms"
+            f"{output / one.case_id}: {written.elements.shape[0]} elements, pass {IN_MS * written.pass_time:.4g} ms"
         )

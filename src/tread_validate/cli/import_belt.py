@@ -24,7 +24,7 @@ def command(
     from ..geometry.trace import level
     from ..geometry.trace_file import belt_yaml
     from ..geometry.trace_import import read_ridges
-    from ..units import MM
+    from ..units import IN_UM, MM
     from .laboratory import checked_origin, provenance, write_all
 
     kind, told = checked_origin(heights, origin, source)
@@ -42,7 +42,7 @@ def command(
         typer.echo(
             f"{trace.name}: patch {length.value / MM:.1f} +- {length.half_width / MM:.1f} mm, "
             f"edge radius {radius.value / MM:.0f} +- {radius.half_width / MM:.0f} mm (95 %), "
-            f"noise {trace.noise * 1e6:.1f} um, spikes at x = {spikes} mm, "
+            f"noise {trace.noise * IN_UM:.1f} um, spikes at x = {spikes} mm, "
             f"edge moved by setting them aside: {trace.edge_shift / MM:.3f} mm"
         )
     typer.echo(f"wrote {output}")

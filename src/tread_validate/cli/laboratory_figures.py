@@ -17,7 +17,7 @@ from ..material import MaterialRoute
 from ..reference.rig_passes import RigPasses
 from ..report.figures.style import styled
 from ..report.palette import BLACK, BLUE, GREEN, PURPLE, VERMILION
-from ..units import KPA, MM, MPA
+from ..units import IN_UM, KPA, MM, MPA
 
 GREY = "#8c959f"
 COLOURS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, "#b07d00", "#56b4e9", GREY)
@@ -127,9 +127,9 @@ def belt(traces: tuple[LevelledTrace, ...], figure: Figure, mark: str = "") -> N
     curvature.set_title(f"{chosen.name.replace('_', ' ')}; dotted: spike set aside", loc="left")
     curvature.legend()
     near = np.abs(chosen.measured_x - chosen.edges[1]) < 0.025
-    edge.plot(chosen.measured_x[near] / MM, chosen.measured_height[near] * 1e6, "o", ms=3, color=GREY, mfc="none")
+    edge.plot(chosen.measured_x[near] / MM, chosen.measured_height[near] * IN_UM, "o", ms=3, color=GREY, mfc="none")
     near = np.abs(chosen.x - chosen.edges[1]) < 0.025
-    edge.plot(chosen.x[near] / MM, chosen.height[near] * 1e6, color=BLUE)
+    edge.plot(chosen.x[near] / MM, chosen.height[near] * IN_UM, color=BLUE)
     edge.axvline(chosen.edges[1] / MM, color=BLACK, lw=0.8)
     edge.set(xlabel="x, mm", ylabel="height, µm")
     length, radius = chosen.patch_length, chosen.edge_radius

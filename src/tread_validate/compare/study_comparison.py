@@ -11,6 +11,7 @@ from ..errors import InputError, one_line
 from ..files import read_text
 from ..reference import load_published
 from ..study import Case, LoadedStudy
+from ..units import IN_MM
 from .claims.claim import Claim, Evidence
 from .claims.published import published_claims
 from .model_runs import model_runs, model_source
@@ -172,7 +173,7 @@ def _groups(cases: Sequence[Case], exclude: Sequence[float]) -> dict[str, set[st
         "belt": {case.case_id for case in cases if case.is_belt},
         "track": {case.case_id for case in cases if case.path.family == "track"},
         "published": {
-            case.case_id for case in rig if not any(abs(1e3 * case.interference - left) < 1e-9 for left in exclude)
+            case.case_id for case in rig if not any(abs(IN_MM * case.interference - left) < 1e-9 for left in exclude)
         },
     }
     for shape in sorted({case.block.shape for case in rig}):

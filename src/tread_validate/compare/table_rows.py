@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 from ..study import Case
+from ..units import IN_MM, IN_MPA
 from .claims.claim import Claim
 from .quantities import SCALARS
 from .runs import SourceRun
@@ -31,10 +32,10 @@ def peak_row(case: Case, run: SourceRun) -> PeakRow:
         path=case.path_name,
         block=case.block_name,
         temperature_degC=case.temperature,
-        interference_mm=round(1e3 * case.interference, 9),
+        interference_mm=round(IN_MM * case.interference, 9),
         speed_m_s=round(case.speed, 6),
         values=values,
-        peak_pressure_MPa=None if peak is None else 1e-6 * peak / (case.length * case.width),
+        peak_pressure_MPa=None if peak is None else IN_MPA * peak / (case.length * case.width),
         status=run.status,
         note=run.note,
         history_sha256=run.digest,

@@ -16,7 +16,7 @@ from ..geometry import Path
 from ..material import prony_series
 from ..material.wlf import referred_to
 from ..study import Case
-from ..units import DECK_DENSITY, DECK_LENGTH, DECK_STRESS
+from ..units import DECK_DENSITY, DECK_LENGTH, DECK_STRESS, US
 from .keywords import comment, integers, keyword, number, reals, table
 from .mesh import BlockMesh
 from .placement import LEAD_IN, MountTable
@@ -218,7 +218,7 @@ def steps(case: Case, path: Path, pass_time: float, tables: Sequence[MountTable]
                 keyword("BOUNDARY", TYPE="VELOCITY", AMPLITUDE=f"V{axis}_{index:03d}"),
                 f"MOUNT_{index:03d}, {direction}, {direction}, 1.",
             ]
-    interval = number(case.deck.history_interval_us * 1e-6)
+    interval = number(case.deck.history_interval_us * US)
     return [
         *lines,
         keyword("CONTACT PAIR", INTERACTION="TREAD_ROAD", MECHANICAL_CONSTRAINT="KINEMATIC", CPSET="TREAD_ROAD_PAIR"),

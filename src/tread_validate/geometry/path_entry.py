@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..fields import Sourced
+from ..units import IN_MM
 from .path import Path
 from .tread_block import Block
 
@@ -118,7 +119,7 @@ class PathEntry(Sourced, ABC):
         fall = np.zeros(road.size)
         if not path.road.is_plane:
             fall = np.sqrt(np.maximum(path.road.radius**2 - road**2, 0.0)) - path.road.radius
-        return Sketch("x, mm", "y, mm", {"mount": (1e3 * x, 1e3 * y), "road": (1e3 * road, 1e3 * fall)})
+        return Sketch("x, mm", "y, mm", {"mount": (IN_MM * x, IN_MM * y), "road": (IN_MM * road, IN_MM * fall)})
 
 
 def check_interference(run: Conditions) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..units import IN_MM
 from .trace_curvature import three_point_curvature
 from .trace_fit import KNOT_SPACING, PatchFit, fit_patch
 
@@ -172,8 +173,8 @@ def _check(ridges: RidgeHeights) -> None:
     wrong = np.abs(steps - pitch) > PITCH_TOLERANCE * pitch
     if not pitch > 0 or wrong.any():
         row = int(np.argmax(wrong))
-        found = f"a step of {steps[row] * 1e3:.4g} mm at point {row + 2}"
-        raise InputError(ridges.source, found, f"the constant pitch of {pitch * 1e3:.4g} mm (leave gaps empty)")
+        found = f"a step of {steps[row] * IN_MM:.4g} mm at point {row + 2}"
+        raise InputError(ridges.source, found, f"the constant pitch of {pitch * IN_MM:.4g} mm (leave gaps empty)")
     for name, heights in ridges.heights.items():
         if np.isfinite(heights).sum() < 30:
             raise InputError(f"{ridges.source}: {name}", f"{np.isfinite(heights).sum()} heights", "at least 30")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..units import MM
+from ..units import IN_UM, MM
 from ..yaml_text import read_yaml
 from .trace import LevelledTrace, RidgeHeights
 
@@ -34,7 +34,7 @@ def belt_yaml(traces: tuple[LevelledTrace, ...], origin: str, source: str, prove
             f"edge_radius_mm: {trace.edge_radius.value / MM:.0f}, "
             f"edge_radius_95_mm: {trace.edge_radius.half_width / MM:.0f}, "
             f"leading_edge_mm: {trace.edges[0] / MM:.2f}, trailing_edge_mm: {trace.edges[1] / MM:.2f}, "
-            f"noise_um: {trace.noise * 1e6:.1f}, spikes_removed: {trace.spikes.size}, "
+            f"noise_um: {trace.noise * IN_UM:.1f}, spikes_removed: {trace.spikes.size}, "
             f"edge_shift_mm: {trace.edge_shift / MM:.3f}}}"
         )
     lines.append("traces:")

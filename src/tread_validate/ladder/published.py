@@ -15,6 +15,7 @@ from ..compare.runs import Runs
 from ..errors import EngineError, InputError
 from ..spring import free_rolling_creep, run
 from ..study import Case, SimplifiedBelt
+from ..units import IN_MM, MM
 
 Array = NDArray[np.float64]
 
@@ -95,7 +96,7 @@ class Combination:
     def of(self, case: Case) -> Case:
         """Return the case so changed."""
         path = case.path.model_copy(
-            update={"edge_radius_mm": 1e3 * self.edge_radius, "patch_length_mm": 1e3 * self.patch_length}
+            update={"edge_radius_mm": IN_MM * self.edge_radius, "patch_length_mm": IN_MM * self.patch_length}
         )
         return replace(case, path=path, compound=scaled(case, self.modulus_factor))
 
@@ -119,7 +120,7 @@ def combination_rows(case: Case, rungs: Sequence[str]) -> list[dict[str, Any]]:
     `case` is a belt case on the simplified profile. The rows' columns are `COMBINATION_COLUMNS`.
     """
     assert isinstance(case.path, SimplifiedBelt)
-    published = Combination(1e-3 * case.path.edge_radius_mm, 1e-3 * case.path.patch_length_mm, 1.0)
+    published = Combination(MM * case.path.edge_radius_mm, MM * case.path.patch_length_mm, 1.0)
     rows = []
     for rung in rungs:
         at_start = _outcome(case, rung, published)
@@ -169,7 +170,7 @@ def _row(case: Case, rung: str, what: str, combination: Combination, found: Outc
     pairs = ((found.normal, NORMAL), (found.tangential, TANGENTIAL), (found.creep, CREEP))
     meets_all = all(abs(value / published - 1.0) <= TOLERANCE for value, published in pairs) and found.late == 1.0
     entries = (
-        rung, what, 1e3 * combination.edge_radius, 1e3 * combination.patch_length, combination.modulus_factor,
+        rung, what, IN_MM * combination.edge_radius, IN_MM * combination.patch_length, combination.modulus_factor,
         found.normal, found.tangential, 100.0 * found.creep, found.late, meets_all,
         note, "; ".join(case.assumed()),
     )  # fmt: skip

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import InputError, one_line
 from ..history import History
+from ..units import IN_MS
 
 SHORTEST = 0.8
 """A record must last for this share of the geometric contact time: the rubber may let go before the road leaves it."""
@@ -41,8 +42,8 @@ def check_history(history: History, where: str, *, case_id: str, case_digest: st
     if history.time[-1] - history.time[0] < SHORTEST * duration:
         raise InputError(
             f"{where}: time_s",
-            f"a record of {(history.time[-1] - history.time[0]) * 1e3:.4g} ms",
-            f"the whole pass, {duration * 1e3:.4g} ms",
+            f"a record of {(history.time[-1] - history.time[0]) * IN_MS:.4g} ms",
+            f"the whole pass, {duration * IN_MS:.4g} ms",
         )
 
 

@@ -12,6 +12,7 @@ import pandas as pd
 from ..errors import InputError
 from ..reference import FeStore
 from ..study import LoadedStudy, conditions_digest
+from ..units import IN_MS
 from ..yaml_text import read_yaml
 from . import wording
 from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table
@@ -93,7 +94,7 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
         cells = (
             Cell(str(record["group"])),
             Cell(f"{number(record['compared']) or 0:.0f} of {number(record['cases']) or 0:.0f}"),
-            Cell(wording.digits(None if seconds is None else 1e3 * seconds), sort=seconds),
+            Cell(wording.digits(None if seconds is None else IN_MS * seconds), sort=seconds),
             Cell(wording.percent(mean), sort=mean),
             Cell(wording.percent(worst, sign=True), sort=worst, note=str(record["worst_case_id"] or "")),
             Cell(wording.percent(within, 0), sort=within),

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..compare.rig_peaks import RigPeak
 from ..history import History
+from ..units import IN_MS
 from .tables import Tables
 
 SAMPLES = 300  # of one history, in a study of usual size
@@ -73,7 +74,7 @@ def pack(history: History, samples: int = SAMPLES) -> dict[str, Any]:
     normal_scale, normal = _whole(history.normal_force[keep])
     tangential_scale, tangential = _whole(history.tangential_force[keep])
     return {
-        "ts": TIME_SCALE * 1e3,
+        "ts": TIME_SCALE * IN_MS,
         "t": np.diff(microseconds, prepend=0).tolist(),
         "ns": normal_scale,
         "n": normal,

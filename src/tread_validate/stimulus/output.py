@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import one_line
 from ..files import atomic_path, write_text
+from ..units import IN_MS
 from .response import Response
 from .stimulus import Stimulus, amplitude
 
@@ -126,7 +127,9 @@ def draw(stimuli: list[Stimulus], path: Path, assumed: str = "") -> None:
         forces = (stimulus.normal_force, stimulus.tangential_force)
         lines = (amplitude(stimulus.normal_lines), amplitude(stimulus.tangential_lines))
         for row in (0, 1):
-            axes[row, 0].plot(stimulus.time[part] * 1e3, forces[row][part], color=colour, label=stimulus.label, lw=1.2)
+            axes[row, 0].plot(
+                stimulus.time[part] * IN_MS, forces[row][part], color=colour, label=stimulus.label, lw=1.2
+            )
             offset = (index - 0.5 * (len(stimuli) - 1)) * 0.27 / stimulus.period
             axes[row, 1].vlines(stimulus.frequency[1:] + offset, 0, lines[row][1:], color=colour, lw=1.1)
     for row, name in enumerate(("normal force, N", "tangential force, N")):

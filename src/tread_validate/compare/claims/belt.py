@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...study import Case
+from ...units import IN_MPA
 from ..quantities import contact_window
 from ..runs import SourceRun
 from ..scores.align import align
@@ -59,7 +60,7 @@ def _normal(case: Case, run: SourceRun) -> float:
 
 
 def _pressure(case: Case, run: SourceRun) -> float:
-    return 1e-6 * _normal(case, run) / (case.length * case.width)
+    return IN_MPA * _normal(case, run) / (case.length * case.width)
 
 
 def _tangential(case: Case, run: SourceRun) -> float:

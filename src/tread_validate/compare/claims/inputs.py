@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ...study import Case
+from ...units import IN_MM, MM
 from ...yaml_text import read_yaml
 from .claim import Compute, Computed, Evidence, is_measured, nothing
 
@@ -75,25 +76,25 @@ INPUTS: dict[str, Compute] = {
     "band_high": _of(BELT, lambda case: None if _fit(case) is None else _fit(case).band_rad_s[1]),
     "tyre_temperature": _of(BELT, lambda case: case.temperature),
     "poissons_ratio": _of(BELT, lambda case: case.compound.poissons_ratio),
-    "small_wheel_diameter": _of(RIG, lambda case: 1e-3 * getattr(case.path, "small_wheel_diameter_mm", 0.0)),
-    "big_wheel_diameter": _of(RIG, lambda case: 1e-3 * getattr(case.path, "big_wheel_diameter_mm", 0.0)),
+    "small_wheel_diameter": _of(RIG, lambda case: MM * getattr(case.path, "small_wheel_diameter_mm", 0.0)),
+    "big_wheel_diameter": _of(RIG, lambda case: MM * getattr(case.path, "big_wheel_diameter_mm", 0.0)),
     "rig_speed_low": _of(RIG, lambda case: _rounded(case.speed_rpm), min),
     "rig_speed_high": _of(RIG, lambda case: _rounded(case.speed_rpm), max),
-    "rig_interference_low": _of(RIG, lambda case: _rounded(1e3 * case.interference), min),
-    "rig_interference_high": _of(RIG, lambda case: _rounded(1e3 * case.interference), max),
+    "rig_interference_low": _of(RIG, lambda case: _rounded(IN_MM * case.interference), min),
+    "rig_interference_high": _of(RIG, lambda case: _rounded(IN_MM * case.interference), max),
     "rig_temperature_high": _of(RIG, lambda case: case.temperature, max),
-    "fig5_interference": _of(RIG, lambda case: _rounded(1e3 * case.interference), _level(0.2)),
+    "fig5_interference": _of(RIG, lambda case: _rounded(IN_MM * case.interference), _level(0.2)),
     "fig5_speed": _of(RIG, lambda case: _rounded(case.speed_rpm), _level(300.0)),
     "trace_count": _belt_file("traces"),
     "trace_pitch": _belt_file("pitch_mm"),
     "edge_radius": _of(BELT, lambda case: _metres(_simplified("edge_radius_mm")(case))),
     "static_friction": _of(BELT, lambda case: case.friction.static_coefficient),
-    "block_length": _of(BELT, lambda case: _rounded(1e3 * case.length)),
-    "block_width": _of(BELT, lambda case: _rounded(1e3 * case.width)),
-    "block_height": _of(BELT, lambda case: _rounded(1e3 * case.height)),
+    "block_length": _of(BELT, lambda case: _rounded(IN_MM * case.length)),
+    "block_width": _of(BELT, lambda case: _rounded(IN_MM * case.width)),
+    "block_height": _of(BELT, lambda case: _rounded(IN_MM * case.height)),
     "element_length": _of(BELT, lambda case: case.spring.element_length_mm),
     "belt_speed": _of(BELT, lambda case: case.speed),
-    "belt_compression": _of(BELT, lambda case: _rounded(1e3 * case.interference)),
+    "belt_compression": _of(BELT, lambda case: _rounded(IN_MM * case.interference)),
     "simplified_profile_length": _of(BELT, lambda case: _metres(_simplified("patch_length_mm")(case))),
 }
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...study import Case
+from ...units import IN_MM, IN_MPA
 from ..quantities import contact_window
 from ..regression.differences import differences
 from ..regression.line import EXCLUDED_INTERFERENCES
@@ -144,7 +145,7 @@ def _mean_error(shape: str) -> Compute:
             case
             for case in evidence.rig_cases()
             if case.block.shape == shape
-            and not any(abs(1e3 * case.interference - left) < 1e-9 for left in EXCLUDED_INTERFERENCES)
+            and not any(abs(IN_MM * case.interference - left) < 1e-9 for left in EXCLUDED_INTERFERENCES)
         ]
         if not evidence.rig_peaks:
             return nothing("measured rig peaks are not published as numbers and none has been imported")
@@ -164,7 +165,7 @@ def _pressure_limit(evidence: Evidence, source: str) -> Computed:
     if not known or len(known) < len(pairs):
         return nothing(f"{len(pairs) - len(known)} of {len(pairs)} runs cannot be used")
     highest, case = max(known, key=lambda item: item[0])
-    return Computed(1e-6 * highest, (case.case_id,), note=f"highest of {len(known)}", assumed=case.assumed())
+    return Computed(IN_MPA * highest, (case.case_id,), note=f"highest of {len(known)}", assumed=case.assumed())
 
 
 def _table1(name: str, shape: str, origin: str) -> Compute:

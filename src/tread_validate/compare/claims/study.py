@@ -13,6 +13,7 @@ from ...geometry.trace_file import read_belt
 from ...material import prony_series
 from ...material.wlf import relative_shift
 from ...study import Case
+from ...units import IN_GRAM, IN_KPA, IN_MPA
 from .claim import Compute, Computed, Evidence, is_measured, nothing
 
 GRAVITY = 9.80665  # m/s2
@@ -46,7 +47,7 @@ def _average_modulus(evidence: Evidence, source: str) -> Computed:
     modulus = None if case is None else mean_modulus(case)
     if case is None or modulus is None:
         return nothing("the study has no tyre case with a compound fitted over a band")
-    return Computed(1e-6 * modulus, (case.case_id,), assumed=_compound(case))
+    return Computed(IN_MPA * modulus, (case.case_id,), assumed=_compound(case))
 
 
 def _band(end: int, scale: float) -> Compute:
@@ -124,8 +125,8 @@ STUDY: dict[str, Compute] = {
     "band_low_at_60": _band(0, 1.0),
     "band_high_at_60": _band(1, 1e-3),
     "average_modulus": _average_modulus,
-    "block_mass": _from_belt(lambda case: 1e3 * _mass(case)),
-    "inertia_pressure": _from_belt(lambda case: 1e-3 * ESTIMATE_FORCE / (case.length * case.width)),
+    "block_mass": _from_belt(lambda case: IN_GRAM * _mass(case)),
+    "inertia_pressure": _from_belt(lambda case: IN_KPA * ESTIMATE_FORCE / (case.length * case.width)),
     "inertia_acceleration": _from_belt(lambda case: ESTIMATE_FORCE / _mass(case) / GRAVITY),
     "belt_speed_kmh": _from_belt(lambda case: 3.6 * case.speed),
     "unloaded_curvature": _curvature("unloaded"),

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ...reference import PublishedValue
 from ...study import Case
+from ...units import IN_MM
 from ..runs import Runs
 from ..tables import Coefficient
 from .line import EXCLUDED_INTERFERENCES, LEVEL, Peak, Regression, mean_interval, regress
@@ -75,7 +76,7 @@ def peak_of(case: Case, force: float | None) -> Peak:
         case.case_id,
         case.block.shape,
         case.temperature,
-        round(1e3 * case.interference, 9),
+        round(IN_MM * case.interference, 9),
         round(case.speed, 9),
         force,
     )

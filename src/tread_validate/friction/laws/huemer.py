@@ -12,7 +12,7 @@ from pydantic import Field, FiniteFloat
 from ...errors import InputError
 from ...fields import Positive
 from ...kernels import kernel
-from ...units import KPA, MM
+from ...units import IN_MPA, KPA, MM, MPA
 from ..law import PRESSURE, SLIP_SPEED, FrictionEntry, FrictionLaw, LawForm
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ def huemer_kernel(
     Parameters 0-6 are alpha, beta, n, m, a, b, c (p in MPa, v in m/s), 7 the least pressure in Pa and 8 the least slip
     speed in m/s.
     """
-    p = max(abs(pressure), parameters[7]) * 1e-6
+    p = max(abs(pressure), parameters[7]) * IN_MPA
     v = max(abs(slip_speed), parameters[8])
     u = v ** (-1.0 / parameters[3])
     above = parameters[0] * p ** (parameters[2] - 1.0) + parameters[1]
@@ -140,7 +140,7 @@ def huemer_law(
     if not np.all(below > 0):
         slow = float(u[np.argmin(below)] ** -m)
         raise InputError(where, f"a denominator of {np.min(below):.3g} at {slow:.3g} m/s", "a, b, c that keep it > 0")
-    p = np.geomspace(least_pressure, max(100e6, 10 * least_pressure), 201) * 1e-6
+    p = np.geomspace(least_pressure, max(100 * MPA, 10 * least_pressure), 201) * IN_MPA
     above = alpha * p ** (n - 1.0) + beta
     if not np.all(above >= 0):
         raise InputError(

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
 from ...fields import Positive
+from ...units import IN_MM, IN_MS
 from ..block import block_profile
 from ..columns import Columns
 from ..line import EMPTY_TABLE
@@ -131,5 +132,7 @@ class FlatTrack(PathEntry):
         time = np.linspace(-0.1, 1.1, 481) * path.contact_duration
         face = path.free_face(0.5 * path.columns.extent, time)[1]
         return Sketch(
-            "time, ms", "height over the road, mm", {"face": (1e3 * time, 1e3 * face), "road": (1e3 * time, 0 * time)}
+            "time, ms",
+            "height over the road, mm",
+            {"face": (IN_MS * time, IN_MM * face), "road": (IN_MS * time, 0 * face)},
         )

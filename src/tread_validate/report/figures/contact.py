@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...geometry import path_of
 from ...spring import face_at
 from ...study import Case
-from ...units import MM, MPA
+from ...units import IN_MS, MM, MPA
 from ..content import Mark
 from ..palette import BLACK, BLUE, GREY, ORANGE, VERMILION
 from ..tables import read_table
@@ -60,7 +60,7 @@ def pressure(
         axes.legend(ncols=2, loc="upper right")
 
     caption = (
-        f"{label}, {1e3 * instant:.2f} ms after first touch. Spring (paper): one value an element. "
+        f"{label}, {IN_MS * instant:.2f} ms after first touch. Spring (paper): one value an element. "
         + (f"{engine}: mean over the block's width. " if rows is not None else "")
         + "Shear of the road on the block, positive towards the leading edge."
     )

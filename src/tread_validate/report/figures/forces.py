@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from ...compare.rig_peaks import RigPeak
 from ...history import History
+from ...units import IN_MS
 from .. import wording
 from ..cases import CaseView
 from ..content import Mark
@@ -36,7 +37,7 @@ def history_panel(
             keep = thin(history)
             values = history.normal_force if force == "normal" else history.tangential_force
             axes.plot(
-                1e3 * history.time[keep],
+                IN_MS * history.time[keep],
                 values[keep],
                 linestyle=look.line,
                 color=look.color,
