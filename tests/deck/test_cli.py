@@ -24,7 +24,8 @@ def test_one_case_gets_a_folder_of_its_own(altered_study: Callable[..., Path], t
     assert app.run(["deck", str(altered_study(COARSE)), "--case", RIG, "-o", str(out)]) == 0
     names = sorted(path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file())
     files = [f"{RIG}-constant-friction.inp", f"{RIG}.inp", "mesh.vtu", "vfric.f"]
-    assert names == sorted(f"{RIG}/{name}" for name in files)
+    (mesh,) = (name for name in names if "/mesh-rectangle-" in name)
+    assert names == sorted([mesh, *(f"{RIG}/{name}" for name in files)])
     assert app.run(["lint", str(out / RIG / f"{RIG}.inp")]) == 0
 
 
@@ -32,17 +33,30 @@ def test_free_rolling_case_gets_the_creep_that_the_spring_model_finds(
     altered_study: Callable[..., Path], tmp_path: Path
 ) -> None:
     """The road's speed in the deck is V0 (1 + eps), eps rounded to 1e-5: one unit in the fifth digit of speed."""
+    from tread_validate.inp import expand
     from tread_validate.spring import resolve_creep
     from tread_validate.study import load_study
 
     study = altered_study(COARSE)
     case = "belt-simplified-60c-0p2mm-16p7mps-free"
     assert app.run(["deck", str(study), "--case", case, "-o", str(tmp_path / "out")]) == 0
-    text = (tmp_path / "out" / case / f"{case}.inp").read_text()
+    text = expand(tmp_path / "out" / case / f"{case}.inp")
     speed = float(text.split("ROAD_REF, 1, 1, ")[1].split()[0])
     (resolved,) = resolve_creep((load_study(study).case(case),))
     assert resolved.creep_ratio is not None
     assert speed == pytest.approx(16700.0 * (1.0 + resolved.creep_ratio), rel=1e-8)
+
+
+def test_one_file_and_general_contact_are_options(altered_study: Callable[..., Path], tmp_path: Path) -> None:
+    """All variants lint clean; in one file there is nothing to include."""
+    out = tmp_path / "out"
+    options = ["--single-file", "--general-contact"]
+    assert app.run(["deck", str(altered_study(COARSE)), "--case", RIG, "-o", str(out), *options]) == 0
+    names = sorted(path.name for path in (out / RIG).iterdir())
+    variants = [f"{RIG}{kind}.inp" for kind in ("", "-constant-friction", "-general-contact")]
+    assert names == sorted([*variants, "mesh.vtu", "vfric.f", "vfriction.f"])
+    assert app.run(["lint", *(str(out / RIG / name) for name in variants)]) == 0
+    assert "INCLUDE" not in (out / RIG / f"{RIG}.inp").read_text()
 
 
 @pytest.mark.parametrize(

@@ -51,6 +51,11 @@ def _read(case: Case, folder: Path) -> Read:
             for target, dof, value in rows:
                 for node in [int(target)] if target.isdigit() else sets[target]:
                     velocity.setdefault(node, np.zeros(6))[int(dof) - 1] = float(value)
+        elif block.keyword == "INITIAL CONDITIONS" and block.value("TYPE") == "ROTATING VELOCITY":
+            (target, rate, *shift), axis = rows[0], np.array(rows[1], dtype=float)
+            for node in sets[target]:
+                turn = np.cross(float(rate) * (axis[3:] - axis[:3]), points[node] - axis[:3])
+                velocity[node] = np.concatenate([turn + np.array(shift, dtype=float), np.zeros(3)])
         elif block.keyword == "BOUNDARY" and block.parameters.get("TYPE") == "VELOCITY":
             for row in rows:
                 held.setdefault(row[0], []).append((int(row[1]), float(row[3]), block.parameters.get("AMPLITUDE")))

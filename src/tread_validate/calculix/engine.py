@@ -206,6 +206,7 @@ def _history(deck: ElasticDeck, totals: dict[str, NDArray[np.float64]]) -> tuple
     force = deck.road.into_space(road[kept, 1:3], total)
     held = deck.road.into_space(mount[kept, 1:3], total)
     time = np.concatenate([[0.0], total - lead_in])
-    force, held = np.vstack([np.zeros(2), force]), np.vstack([np.zeros(2), held])
+    whole = 2.0 if deck.symmetry else 1.0
+    force, held = whole * np.vstack([np.zeros(2), force]), whole * np.vstack([np.zeros(2), held])
     zeros = np.zeros_like(time)
     return History(time, force[:, 1], -force[:, 0], zeros), held

@@ -13,6 +13,7 @@ from ..errors import InputError
 from ..files import read_text
 from ..inp import Block, Deck, label, read_deck
 from ..inp.sets import Sets
+from ..inp.symmetry import PLANE, is_half
 from ..inp.table import integer_rows, number_table
 from .motion import PlaneMotion, read_motions
 
@@ -72,6 +73,8 @@ class ElasticDeck:
         None for a plane road.
     young, poisson, friction : float
     durations : tuple of float, s
+    symmetry : tuple of int
+        Nodes on the plane of symmetry of a deck that models half a block; empty for a whole one.
     dropped : tuple of str
         What the deck asks for and a quasi-static run has no use for.
     """
@@ -89,6 +92,7 @@ class ElasticDeck:
     friction: float
     durations: tuple[float, ...]
     dropped: tuple[str, ...] = field(default=())
+    symmetry: tuple[int, ...] = field(default=())
 
 
 def read_elastic_deck(path: Path | str, user: Path | str | None = None) -> ElasticDeck:
@@ -131,6 +135,7 @@ def read_elastic_deck(path: Path | str, user: Path | str | None = None) -> Elast
         friction=_friction(deck, user),
         durations=tuple(b.data[0].number_at(1, "a duration, s") for b in deck.named("DYNAMIC") if b.data),
         dropped=dropped,
+        symmetry=sets[PLANE] if is_half(deck) else (),
     )
 
 

@@ -83,6 +83,8 @@ def dialect(deck: ElasticDeck, resolution: Resolution | None = None) -> str:
             moved = seen[:, axis] - start[axis]
             lines += [f"{t:.12g}, {d:.10g}" for t, d in zip(times, moved, strict=True)]
     lines += ["*BOUNDARY", "ROAD_NODES, 1, 3", "MOUNT, 3, 3"]
+    if deck.symmetry:
+        lines += [*_set("NSET", "SYMMETRY_PLANE", deck.symmetry), "*BOUNDARY", "SYMMETRY_PLANE, 3, 3"]
     counts = [choice.lead_in_increments] * (len(deck.durations) - 1) + [choice.pass_increments]
     for duration, count in zip(deck.durations, counts, strict=True):
         step = duration / count

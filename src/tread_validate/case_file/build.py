@@ -122,9 +122,15 @@ def _block(case: Case, path: BlockPath) -> doc.Block:
         skew_rad=_short(skew),
         mounting=block.mounting,
         sipes=tuple(
-            doc.Sipe(position_m=_short(sipe.position_mm * MM), width_m=_short(sipe.width_mm * MM))
+            doc.Sipe(
+                position_m=_short(sipe.position_mm * MM),
+                width_m=_short(sipe.width_mm * MM),
+                depth_m=_short((sipe.depth_mm or block.height_mm) * MM),
+            )
             for sipe in block.sipes
         ),
+        draft_rad=_short(math.radians(block.draft_deg)),
+        mesh=block.mesh,
         area_m2=_short(profile.area),
         outline_m=_outline(case, skew),
         width_profile=doc.WidthProfile(s_m=_numbers(places), width_m=_numbers(widths)),

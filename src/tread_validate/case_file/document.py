@@ -97,10 +97,11 @@ class Friction(Named):
 
 
 class Sipe(Frozen):
-    """A gap through the block."""
+    """A gap through the block's width, from the face up."""
 
     position_m: NonNegative
     width_m: Positive
+    depth_m: Positive = Field(description="from the face; the block's height for a cut through")
 
 
 class WidthProfile(Frozen):
@@ -129,6 +130,8 @@ class Block(Named):
     skew_rad: FiniteFloat
     mounting: str = Field(description="conforming: face parallel to the mount everywhere; flat: a flat face")
     sipes: tuple[Sipe, ...]
+    draft_rad: NonNegative = Field(description="lean of the outer walls: the block widens from the face to the mount")
+    mesh: str | None = Field(description="mesh file of the block where the study gives one")
     area_m2: Positive
     outline_m: tuple[tuple[tuple[FiniteFloat, FiniteFloat], ...], ...] = Field(
         description="polygons (s, z) of the face's solid parts, z along the axle"

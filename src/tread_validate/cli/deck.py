@@ -26,8 +26,17 @@ def command(
     layers: Annotated[
         int | None, typer.Option("--layers", min=1, max=1000, help="elements over the height, instead of the study's")
     ] = None,
+    single_file: Annotated[
+        bool, typer.Option("--single-file", help="every number in place and nothing included (for imports into a GUI)")
+    ] = False,
+    general_contact: Annotated[
+        bool, typer.Option("--general-contact", help="also the variant with general contact, and its vfriction.f")
+    ] = False,
 ) -> None:
-    """Write the deck of one case, or of all: ID.inp, ID-constant-friction.inp, vfric.f and mesh.vtu.
+    """Write the deck of one case, or of all: ID.inp with the files it includes, vfric.f, mesh.vtu and variants.
+
+    Speed, interference, creep, temperature and friction constants stand at the top of ID.inp and can be changed there;
+    mesh, sets and surfaces are in mesh-BLOCK-DIGEST.inp, a belt's velocity tables in motion-PATH-DIGEST.inp.
 
     Example: tread-validate deck config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm -o fe_inputs
     """
@@ -46,7 +55,7 @@ def command(
         cases = resolve_creep(cases)
     mesh = {"element_size_mm": element_size, "layers": layers}
     for one in (with_mesh(one, {key: value for key, value in mesh.items() if value is not None}) for one in cases):
-        written = deck.write(one, output / one.case_id)
+        written = deck.write(one, output / one.case_id, single_file=single_file, general_contact=general_contact)
         typer.echo(
             f"{output / one.case_id}: {written.elements.shape[0]} elements, pass {IN_MS * written.pass_time:.4g} ms"
         )

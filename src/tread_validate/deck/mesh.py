@@ -8,8 +8,10 @@ of `placement`.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,10 @@ IntArray = NDArray[np.int64]
 MOST_ELEMENTS = 2_000_000
 
 
+def _none() -> IntArray:
+    return np.zeros(0, dtype=np.int64)
+
+
 @dataclass(frozen=True)
 class BlockMesh:
     """Eight-node hexahedra that fill the block; sipes are gaps without elements.
@@ -30,11 +36,12 @@ class BlockMesh:
     Attributes
     ----------
     s : (n,) array, mm
-        Distance behind the first corner to touch, measured along the contact face; 0 .. length + skew.
+        Distance behind the first corner to touch, measured along the contact face; 0 .. length + skew on the face,
+        a little beyond it where the walls have a draft.
     u : (n,) array
         Height fraction: 0 on the contact face, 1 at the mount.
     z : (n,) array, mm
-        Place across the block, -width/2 .. width/2.
+        Place across the block, -width/2 .. width/2 on the face.
     elements : (m, 8) array of int
         Node indices from 0; the first four are the element's face towards the road, counter-clockwise seen from
         inside the element.
@@ -42,6 +49,8 @@ class BlockMesh:
         Node indices on the contact face and at the mount.
     face_elements : array of int
         Elements whose face 1 lies on the contact face.
+    symmetry_nodes : array of int
+        Nodes on the plane z = 0 of a block of which only z >= 0 is meshed; empty for a whole block.
     """
 
     s: FloatArray
@@ -51,49 +60,46 @@ class BlockMesh:
     face_nodes: IntArray
     mount_nodes: IntArray
     face_elements: IntArray
+    symmetry_nodes: IntArray = field(default_factory=_none)
 
     @property
     def span(self) -> float:
         """Extent of the face in the rolling direction, mm."""
-        return float(self.s.max())
+        return float(self.s[self.face_nodes].max())
 
 
 @lru_cache(maxsize=32)
-def block_mesh(block: Block, settings: DeckSettings) -> BlockMesh:
+def block_mesh(block: Block, settings: DeckSettings, root: Path | None = None) -> BlockMesh:
     """Mesh `block` with elements of `settings.element_size_mm`, graded towards the contact face.
 
-    Each stretch of rubber between sipes gets a whole number of columns of its own. Cached: the cases of a study
-    share a few meshes. Raises `InputError` for more than two million elements.
+    Each stretch of rubber between sipes gets a whole number of columns of its own; a block with a mesh file of its own
+    (relative to `root`) is what the file says. Cached: the cases of a study share a few meshes.
+
+    Raises
+    ------
+    InputError
+        More than two million elements, half of a block without a plane of symmetry, or a mesh file that is no block.
     """
-    size = settings.element_size_mm
-    rows = sum(_parts(end - begin, size) for begin, end in rubber_stretches(block))
-    count = rows * _parts(block.width_mm, size) * settings.layers
-    if count > MOST_ELEMENTS:
-        raise InputError("deck.element_size_mm", f"{size:g} ({count} elements)", f"at most {MOST_ELEMENTS} elements")
-    heights = layer_fractions(settings.layers, settings.refinement)
-    across = np.linspace(-0.5, 0.5, _parts(block.width_mm, settings.element_size_mm) + 1) * block.width_mm
-    node_parts: list[tuple[FloatArray, FloatArray, FloatArray]] = []
-    element_parts: list[IntArray] = []
-    first = 0
-    for begin, end in rubber_stretches(block):
-        along = np.linspace(begin, end, _parts(end - begin, settings.element_size_mm) + 1)
-        shape = (heights.size, along.size, across.size)
-        u, s, z = (array.ravel() for array in np.meshgrid(heights, along, across, indexing="ij"))
-        node_parts.append((s + skew_offset(block, z), u, z))
-        element_parts.append(_bricks(shape) + first)
-        first += s.size
-    s, u, z = (np.concatenate([part[i] for part in node_parts]) for i in range(3))
-    elements = np.concatenate(element_parts)
-    on_face = np.flatnonzero(u == 0.0)
-    return BlockMesh(
-        s=s,
-        u=u,
-        z=z,
-        elements=elements,
-        face_nodes=on_face,
-        mount_nodes=np.flatnonzero(u == 1.0),
-        face_elements=np.flatnonzero(np.all(u[elements[:, :4]] == 0.0, axis=1)),
-    )
+    half = settings.symmetry == "half"
+    if half and (block.shape != "rectangle" or block.mesh is not None):
+        found = "a mesh file" if block.mesh is not None else f"a {block.shape}"
+        raise InputError("deck.symmetry", f"half of {found}", "a rectangle, which z = 0 halves")
+    if block.mesh is not None:
+        from .mesh_file import mesh_of_file
+
+        return mesh_of_file(block, root if root is not None else Path())
+    heights = _heights(block, settings)
+    parts = _parts(block.width_mm, settings.element_size_mm)
+    across = np.linspace(-0.5, 0.5, parts + 1) * block.width_mm
+    if half:
+        across = np.linspace(0.0, 0.5, max(1, round(0.5 * parts)) + 1) * block.width_mm
+    if any(sipe.depth_mm is not None for sipe in block.sipes):
+        mesh = _with_blind_sipes(block, settings, heights, across)
+    else:
+        mesh = _of_stretches(block, settings, heights, across)
+    if block.draft_deg:
+        mesh = _drafted(mesh, block)
+    return replace(mesh, symmetry_nodes=np.flatnonzero(mesh.z == 0.0)) if half else mesh
 
 
 def layer_fractions(layers: int, refinement: float) -> FloatArray:
@@ -109,7 +115,7 @@ def layer_fractions(layers: int, refinement: float) -> FloatArray:
 
 
 def rubber_stretches(block: Block) -> list[tuple[float, float]]:
-    """Return the stretches of rubber along the block, mm from the leading edge, that the sipes leave."""
+    """Return the stretches of rubber along the face, mm from the leading edge, that the sipes leave."""
     edges = [0.0]
     for sipe in block.sipes:
         edges += [sipe.position_mm, sipe.position_mm + sipe.width_mm]
@@ -121,6 +127,105 @@ def skew_offset(block: Block, z: FloatArray) -> FloatArray:
     """Return how far a parallelogram's edge lies behind its first corner at `z` (mm); 0 for a rectangle."""
     slope = math.tan(math.radians(block.skew_deg))
     return 0.5 * block.width_mm * abs(slope) + z * slope
+
+
+def finished(s: FloatArray, u: FloatArray, z: FloatArray, elements: IntArray) -> BlockMesh:
+    """Return the mesh with its sets: what lies at u = 0 and u = 1."""
+    return BlockMesh(
+        s=s,
+        u=u,
+        z=z,
+        elements=elements,
+        face_nodes=np.flatnonzero(u == 0.0),
+        mount_nodes=np.flatnonzero(u == 1.0),
+        face_elements=np.flatnonzero(np.all(u[elements[:, :4]] == 0.0, axis=1)),
+    )
+
+
+def _heights(block: Block, settings: DeckSettings) -> FloatArray:
+    """Return the height fractions of the node layers; a layer ends at the bottom of every sipe.
+
+    The layer boundary nearest to a sipe's depth is moved there.
+    """
+    heights = layer_fractions(settings.layers, settings.refinement)
+    for depth in sorted({sipe.depth_mm for sipe in block.sipes if sipe.depth_mm is not None}):
+        fraction = depth / block.height_mm
+        inside = np.arange(1, heights.size - 1)
+        nearest = int(inside[np.argmin(np.abs(heights[inside] - fraction))])
+        heights[nearest] = fraction
+        if np.any(np.diff(heights) < 1e-3):
+            raise InputError(
+                "deck.layers", settings.layers, f"enough layers to end one at a sipe's depth of {depth:g} mm"
+            )
+    return heights
+
+
+def _counted(columns: int, across: int, layers: int, settings: DeckSettings) -> None:
+    count = columns * across * layers
+    if count > MOST_ELEMENTS:
+        size = settings.element_size_mm
+        raise InputError("deck.element_size_mm", f"{size:g} ({count} elements)", f"at most {MOST_ELEMENTS} elements")
+
+
+def _of_stretches(block: Block, settings: DeckSettings, heights: FloatArray, across: FloatArray) -> BlockMesh:
+    """Mesh a block whose sipes, if any, go all the way through: one grid for each stretch of rubber."""
+    size = settings.element_size_mm
+    stretches = rubber_stretches(block)
+    columns = sum(_parts(end - begin, size) for begin, end in stretches)
+    _counted(columns, across.size - 1, heights.size - 1, settings)
+    node_parts: list[tuple[FloatArray, FloatArray, FloatArray]] = []
+    element_parts: list[IntArray] = []
+    first = 0
+    for begin, end in stretches:
+        along = np.linspace(begin, end, _parts(end - begin, size) + 1)
+        u, s, z = (array.ravel() for array in np.meshgrid(heights, along, across, indexing="ij"))
+        node_parts.append((s + skew_offset(block, z), u, z))
+        element_parts.append(_bricks((heights.size, along.size, across.size)) + first)
+        first += s.size
+    s, u, z = (np.concatenate([part[i] for part in node_parts]) for i in range(3))
+    return finished(s, u, z, np.concatenate(element_parts))
+
+
+def _with_blind_sipes(block: Block, settings: DeckSettings, heights: FloatArray, across: FloatArray) -> BlockMesh:
+    """Mesh a block some of whose sipes end below the mount: one grid, with the elements inside the sipes left out."""
+    size = settings.element_size_mm
+    along, gap_depth = [0.0], []
+    edges = [(0.0, 0.0)]  # where a stretch ends, and how deep it is open (height fraction)
+    for sipe in block.sipes:
+        depth = 1.0 if sipe.depth_mm is None else sipe.depth_mm / block.height_mm
+        edges += [(sipe.position_mm, 0.0), (sipe.position_mm + sipe.width_mm, depth)]
+    edges.append((block.length_mm, 0.0))
+    for (begin, _), (end, depth) in pairwise(edges):
+        if end - begin < 1e-9:
+            continue
+        parts = _parts(end - begin, size)
+        along += np.linspace(begin, end, parts + 1)[1:].tolist()
+        gap_depth += [depth] * parts
+    _counted(len(gap_depth), across.size - 1, heights.size - 1, settings)
+    u, s, z = (array.ravel() for array in np.meshgrid(heights, np.array(along), across, indexing="ij"))
+    elements = _bricks((heights.size, len(along), across.size)).reshape(heights.size - 1, -1, across.size - 1, 8)
+    middle = 0.5 * (heights[1:] + heights[:-1])
+    kept = elements[middle[:, None] > np.array(gap_depth)[None, :]].reshape(-1, 8)
+    used, renumbered = np.unique(kept, return_inverse=True)
+    s, u, z = s[used], u[used], z[used]
+    return finished(s + skew_offset(block, z), u, z, renumbered.reshape(-1, 8).astype(np.int64))
+
+
+def _drafted(mesh: BlockMesh, block: Block) -> BlockMesh:
+    """Lean the four outer walls outward from the face to the mount; sipes keep their walls.
+
+    Along the block, the stretch of rubber at either end (half the block without sipes) widens; across it, everything.
+    """
+    grown = block.height_mm * math.tan(math.radians(block.draft_deg)) * mesh.u
+    along = mesh.s - skew_offset(block, mesh.z)
+    stretches = rubber_stretches(block)
+    single = len(stretches) == 1 and not block.sipes
+    low = 0.5 * block.length_mm if single else stretches[0][1]
+    high = 0.5 * block.length_mm if single else stretches[-1][0]
+    moved = along - np.clip((low - along) / low, 0.0, None) * grown
+    moved += np.clip((along - high) / (block.length_mm - high), 0.0, None) * grown
+    z = mesh.z * (1.0 + 2.0 * grown / block.width_mm)
+    return replace(mesh, s=moved + skew_offset(block, z), z=z)
 
 
 def _parts(length: float, size: float) -> int:

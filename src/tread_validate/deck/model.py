@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 
 import numpy as np
@@ -17,12 +19,16 @@ from ..geometry import Path, TabulatedLine, path_of
 from ..study import Case
 from ..units import DECK_LENGTH, DECK_UNITS
 from . import sections
+from .form import Form
+from .inputs import Inputs, inputs_of
 from .keywords import comment
 from .mesh import BlockMesh, block_mesh
-from .placement import LEAD_IN, MountTable, Placement, mount_tables, place_on_belt, place_on_wheel
-from .vfric import user_friction
+from .placement import LEAD_IN, MountTable, Placement, mount_tables, place
+from .steps import steps
+from .vfric import GENERAL, PAIRS, user_friction
 
 MARGIN = 1.05  # of the pass over the time of geometrical contact: sheared rubber lets go a little later
+INCLUDED = re.compile(r"(mesh|motion)-[a-z0-9_]+-[0-9a-f]{10}\.inp")
 
 
 @dataclass(frozen=True)
@@ -36,8 +42,14 @@ class WrittenDeck:
         The ABAQUS/Explicit deck with the user friction routine.
     constant_friction_text : str or None
         The same deck with built-in Coulomb friction (the law's `constant_coefficient`); None where not asked for.
+    general_contact_text : str or None
+        The same deck with general contact and VFRICTION; None where not asked for.
     user_text : str
         Fortran source of VFRIC.
+    general_user_text : str or None
+        Fortran source of VFRICTION.
+    includes : mapping of str to str
+        Files that the decks include, by name.
     points : (n, 3) array, mm
         Node positions at the start.
     elements : (m, 8) array of int
@@ -54,58 +66,96 @@ class WrittenDeck:
     elements: NDArray[np.int64]
     lead_in: float
     pass_time: float
+    includes: Mapping[str, str] = field(default_factory=dict)
+    general_contact_text: str | None = None
+    general_user_text: str | None = None
+
+    @property
+    def files(self) -> dict[str, str]:
+        """Every text file of the run by name, the deck itself last."""
+        files = dict(self.includes)
+        if self.constant_friction_text is not None:
+            files[f"{self.case_id}-constant-friction.inp"] = self.constant_friction_text
+        if self.general_contact_text is not None and self.general_user_text is not None:
+            files["vfriction.f"] = self.general_user_text
+            files[f"{self.case_id}-general-contact.inp"] = self.general_contact_text
+        return {**files, "vfric.f": self.user_text, f"{self.case_id}.inp": self.input_text}
 
 
-def build(case: Case) -> WrittenDeck:
+def build(case: Case, *, single_file: bool = False, general_contact: bool = False) -> WrittenDeck:
     """Return the deck of a case; the same case gives the same bytes.
 
-    Raises `InputError` for a case whose free-rolling creep has not been resolved, and whatever its material, friction
-    law or path raise.
+    Parameters
+    ----------
+    case : Case
+    single_file : bool
+        Every number in place and nothing included, for programs that know neither ``*PARAMETER`` nor ``*INCLUDE``.
+    general_contact : bool
+        Also write the variant with general contact and VFRICTION.
+
+    Raises
+    ------
+    InputError
+        A case whose free-rolling creep has not been resolved, and whatever its material, friction law or path raise.
     """
     if case.creep_ratio is None:
         raise InputError(f"case {case.case_id}: creep_ratio", "none (free rolling)", "the creep ratio of free rolling")
     path = path_of(case)
-    mesh = block_mesh(case.block, case.deck)
+    mesh = block_mesh(case.block, case.deck, case.root if case.block.mesh is not None else None)
     pass_time = math.ceil(path.contact_duration * MARGIN / 1e-5) * 1e-5
     friction = law(case.friction, case.root)
     user = user_friction(friction, sections.face_mass(case, mesh))
-    motion, placement, tables = _motion(case, mesh, path, pass_time)
+    placement, tables = _motion(case, mesh, path, pass_time)
+    inputs = inputs_of(case, path, friction, placement, pass_time)
+    form = Form(single_file)
     before = [
-        *_opening(case),
-        *sections.mesh(mesh, placement.points),
+        *_opening(case, form, inputs),
+        *sections.mesh(form, mesh, placement, case.block_name, bool(tables)),
         *sections.material(case),
-        *sections.road(path, case.creep_ratio, placement.points, pass_time),
-        *motion,
+        *sections.road(form, inputs, path, placement),
+        *(sections.ring(path) if case.path.mount_is_rigid else ()),
     ]
     after = [
-        *sections.initial_conditions(case, mesh, path, placement.velocities),
-        *sections.fixed_supports(case),
-        *sections.steps(case, path, pass_time, tables),
+        *sections.initial_conditions(form, inputs, case, path, placement),
+        *sections.fixed_supports(case, mesh),
     ]
-    constant = None
+    pair = steps(form, inputs, case, path, tables, general_contact=False)
+    constant = general = None
     if case.deck.constant_friction_variant:
-        constant = _join([*before, *sections.constant_friction(friction.constant_coefficient), *after])
+        own = sections.constant_friction(form, inputs, friction.constant_coefficient)
+        constant = _join([*before, *own, *after, *pair])
+    if general_contact:
+        own = sections.user_friction(form, inputs, user.properties, GENERAL)
+        general = _join([*before, *own, *after, *steps(form, inputs, case, path, tables, general_contact=True)])
+    own = sections.user_friction(form, inputs, user.properties, PAIRS)
     return WrittenDeck(
         case_id=case.case_id,
-        input_text=_join([*before, *sections.user_friction(user.properties), *after]),
+        input_text=_join([*before, *own, *after, *pair]),
         constant_friction_text=constant,
         user_text=user.source,
         points=placement.points,
         elements=mesh.elements,
         lead_in=LEAD_IN,
         pass_time=pass_time,
+        includes=form.files,
+        general_contact_text=general,
+        general_user_text=user.general_source if general_contact else None,
     )
 
 
-def write(case: Case, directory: FilePath | str) -> WrittenDeck:
-    """Build the deck of a case and write ``<id>.inp``, ``<id>-constant-friction.inp``, ``vfric.f``, ``mesh.vtu``."""
-    deck = build(case)
+def write(case: Case, directory: FilePath | str, *, single_file: bool = False, general_contact: bool = False) -> WrittenDeck:
+    """Build the deck of a case and write its `files` and ``mesh.vtu``; see `build`.
+
+    Include files that an earlier deck in the folder left behind and this one does not use are removed.
+    """
+    deck = build(case, single_file=single_file, general_contact=general_contact)
     folder = FilePath(directory)
-    if deck.constant_friction_text is not None:
-        write_text(folder / f"{deck.case_id}-constant-friction.inp", deck.constant_friction_text)
-    write_text(folder / "vfric.f", deck.user_text)
     write_mesh(deck, folder / "mesh.vtu")
-    write_text(folder / f"{deck.case_id}.inp", deck.input_text)
+    for name, text in deck.files.items():
+        write_text(folder / name, text)
+    for old in folder.glob("*.inp"):
+        if INCLUDED.fullmatch(old.name) and old.name not in deck.includes:
+            old.unlink()
     return deck
 
 
@@ -118,14 +168,13 @@ def write_mesh(deck: WrittenDeck, file: FilePath | str) -> None:
         meshio.write(temporary, grid, file_format="vtu")
 
 
-def _motion(case: Case, mesh: BlockMesh, path: Path, pass_time: float) -> tuple[list[str], Placement, list[MountTable]]:
-    """Return the text that says how the mount is held, where the block starts, and the mount's velocity tables."""
+def _motion(case: Case, mesh: BlockMesh, path: Path, pass_time: float) -> tuple[Placement, list[MountTable]]:
+    """Return where the block starts, and the velocity tables of its mount; none on the rig, where the ring moves it."""
     if case.path.mount_is_rigid:
-        return sections.ring(path), place_on_wheel(mesh, path), []
+        return place(mesh, path, float(path.line.curvature(0.0)) / path.line.speed_ratio), []
     curvature = _stress_free_curvature(case, path)
-    rows = np.unique(np.round(mesh.s[mesh.mount_nodes], 9))
-    tables = mount_tables(path, rows, pass_time, curvature)
-    return sections.mount_rows(mesh, tables), place_on_belt(mesh, path, curvature), tables
+    rows = np.unique(sections.mount_place(mesh))
+    return place(mesh, path, curvature), mount_tables(path, rows, pass_time, curvature)
 
 
 def _stress_free_curvature(case: Case, path: Path) -> float:
@@ -143,7 +192,7 @@ def _stress_free_curvature(case: Case, path: Path) -> float:
     return float(path.line.curvature(middle))
 
 
-def _opening(case: Case) -> list[str]:
+def _opening(case: Case, form: Form, inputs: Inputs) -> list[str]:
     """Return the heading. User's free text stays out of decks: names and ids have a closed alphabet."""
     lines = ["*HEADING", case.case_id]
     lines += [
@@ -161,10 +210,10 @@ def _opening(case: Case) -> list[str]:
             *(f"ASSUMED INPUT: {item}" for item in case.assumed()),
             "x: direction of travel, y: away from the road, z: across. Road at y = 0 under the axle (x = 0).",
             "Step approach leads in without contact; step pass begins at the first touch.",
-            "Run: abaqus job=... input=... user=vfric.f double",
+            f"Run: abaqus job={case.case_id} user=vfric.f double=both (on Windows rename vfric.f to vfric.for)",
         )
     ]
-    return lines
+    return [*lines, *form.parameters(inputs.by_hand, inputs.derived)]
 
 
 def _join(lines: list[str]) -> str:

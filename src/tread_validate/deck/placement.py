@@ -7,6 +7,7 @@ first touch (t = 0). On the rig the mount is rigid and there is nothing to bend.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,18 +28,52 @@ STRAIGHT = 1e-13  # relative bend of the velocity below which a table needs no p
 
 @dataclass(frozen=True)
 class Placement:
-    """Start of a run.
+    """Start of a run: a stress-free block in a frame of its own, and that frame's place and rigid motion.
+
+    The frame's origin is the mount above the leading corner (s = 0); its x axis runs along the mount's tangent there,
+    its y axis away from the road. The block in it is the same for all cases of one block on one kind of mount.
 
     Attributes
     ----------
-    points : (n, 3) array, mm
-        Stress-free node positions at t = -LEAD_IN.
-    velocities : (n, 2) array, mm/s
-        x and y components of the rigid motion that the block starts with.
+    local : (n, 3) array, mm
+        Node positions in that frame.
+    origin : (2,) array, mm
+        x and y of the frame's origin at t = -LEAD_IN.
+    angle : float, rad
+        Turn of the frame about z.
+    velocity : (2,) array, mm/s
+        Of the origin.
+    spin : float, rad/s
+        Rate of turn about z.
     """
 
-    points: FloatArray
-    velocities: FloatArray
+    local: FloatArray
+    origin: FloatArray
+    angle: float
+    velocity: FloatArray
+    spin: float
+
+    @property
+    def points(self) -> FloatArray:
+        """Stress-free node positions in space at t = -LEAD_IN, (n, 3), mm."""
+        return self.placed(self.local)
+
+    @property
+    def written(self) -> FloatArray:
+        """The local positions as a deck's text has them, to 1e-5 mm."""
+        return np.asarray(np.round(self.local, 5) + 0.0, dtype=np.float64)  # -0 becomes 0
+
+    def placed(self, local: FloatArray) -> FloatArray:
+        """Return positions (n, 3) of the frame as they are in space."""
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        x, y = local[:, 0], local[:, 1]
+        return np.column_stack([self.origin[0] + c * x - s * y, self.origin[1] + s * x + c * y, local[:, 2]])
+
+    @property
+    def velocities(self) -> FloatArray:
+        """Velocity of every node in the rigid motion that the block starts with, (n, 2), mm/s."""
+        arm = self.points[:, :2] - self.origin
+        return np.column_stack([self.velocity[0] - self.spin * arm[:, 1], self.velocity[1] + self.spin * arm[:, 0]])
 
 
 @dataclass(frozen=True)
@@ -60,24 +95,24 @@ class MountTable:
     velocity_y: FloatArray
 
 
-def place_on_wheel(mesh: BlockMesh, path: Path) -> Placement:
-    """Place a block on the rig's ring: it already has its final shape, and turns about the axle."""
-    s = mesh.s / DECK_LENGTH
-    foot = path.at(s, -LEAD_IN)
-    depth = (1.0 - mesh.u) * path.columns.column_height(s)
-    x, y = foot.x + depth * np.sin(foot.theta), foot.y - depth * np.cos(foot.theta)
-    # rigid: v = v_foot + omega x r, r from the foot to the node
-    vx = foot.velocity_x - foot.angular_velocity * (y - foot.y)
-    vy = foot.velocity_y + foot.angular_velocity * (x - foot.x)
-    return _in_deck_units(mesh, x, y, vx, vy)
+def place(mesh: BlockMesh, path: Path, curvature: float) -> Placement:
+    """Place a stress-free block with its leading row on the mount's path.
 
-
-def place_on_belt(mesh: BlockMesh, path: Path, curvature: float) -> Placement:
-    """Place a stress-free block of the given mount curvature (1/m; 0 flat) with its leading row on the belt."""
+    `curvature` is that of the stress-free block's mount: the ring's on the rig, the belt's for a conforming block on
+    the belt, 0 for a flat one (1/m).
+    """
     s = mesh.s / DECK_LENGTH
-    start = np.float64(-LEAD_IN)
-    x, y, vx, vy = _rigid(path, s, (1.0 - mesh.u) * path.columns.height, start, curvature)
-    return _in_deck_units(mesh, x, y, vx, vy)
+    column = path.columns.column_height(s) if curvature > 0.0 else np.full(s.shape, path.columns.height)
+    arc = s if path.columns.together else path.columns.arc_offset(s) * path.line.speed_ratio
+    x, y = _in_leading_frame(arc, (1.0 - mesh.u) * column, curvature)
+    lead = path.at(0.0, -LEAD_IN)
+    return Placement(
+        local=np.column_stack([x * DECK_LENGTH, y * DECK_LENGTH, mesh.z]),
+        origin=np.array([float(lead.x), float(lead.y)]) * DECK_LENGTH,
+        angle=float(lead.theta),
+        velocity=np.array([float(lead.velocity_x), float(lead.velocity_y)]) * DECK_LENGTH,
+        spin=float(lead.angular_velocity),
+    )
 
 
 def mount_motion(path: Path, s: float, t: FloatArray, curvature: float) -> tuple[FloatArray, ...]:
@@ -127,15 +162,23 @@ def _rigid(
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return place and velocity of points of the stress-free block that rides with its leading row on the belt."""
     lead = path.at(0.0, t)
-    angle = curvature * s
-    # the mount behind the leading row: an arc of the block's own curvature, in the leading row's frame
-    back = -s * np.sinc(angle / np.pi) - depth * np.sin(angle)
-    up = s * np.sin(0.5 * angle) * np.sinc(0.5 * angle / np.pi) - depth * np.cos(angle)
+    back, up = _in_leading_frame(s, depth, curvature)
     dx = back * np.cos(lead.theta) - up * np.sin(lead.theta)
     dy = back * np.sin(lead.theta) + up * np.cos(lead.theta)
     vx = lead.velocity_x - lead.angular_velocity * dy
     vy = lead.velocity_y + lead.angular_velocity * dx
     return lead.x + dx, lead.y + dy, vx, vy
+
+
+def _in_leading_frame(s: FloatArray, depth: FloatArray, curvature: float) -> tuple[FloatArray, FloatArray]:
+    """Return x and y, in the leading row's frame, of points `depth` below the mount at the arc `s` behind that row.
+
+    The mount is an arc of the block's own curvature (SI throughout).
+    """
+    angle = curvature * s
+    back = -s * np.sinc(angle / np.pi) - depth * np.sin(angle)
+    up = s * np.sin(0.5 * angle) * np.sinc(0.5 * angle / np.pi) - depth * np.cos(angle)
+    return back, up
 
 
 def _bends(time: FloatArray, value: FloatArray, limit: float) -> NDArray[np.bool_]:
@@ -145,10 +188,3 @@ def _bends(time: FloatArray, value: FloatArray, limit: float) -> NDArray[np.bool
     between = value[:-2] + weight * (value[2:] - value[:-2])
     kept[1:-1] = np.abs(value[1:-1] - between) > limit
     return kept
-
-
-def _in_deck_units(mesh: BlockMesh, x: FloatArray, y: FloatArray, vx: FloatArray, vy: FloatArray) -> Placement:
-    return Placement(
-        np.column_stack([x * DECK_LENGTH, y * DECK_LENGTH, mesh.z]),
-        np.column_stack([vx * DECK_LENGTH, vy * DECK_LENGTH]),
-    )

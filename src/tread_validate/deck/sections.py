@@ -1,13 +1,12 @@
-"""The parts of a deck, each as a list of lines, in deck units.
+"""The model data of a deck, each part as a list of lines, in deck units.
 
-Coordinates are written to 10 nm, velocities to 1e-3 mm/s and tables of velocity to 1e-4 mm/s: far finer than the mesh
-needs, and coarse enough that the same study gives the same text on another machine.
+Coordinates are written to 10 nm and tables of velocity to 1e-4 mm/s: far finer than the mesh needs, and coarse enough
+that the same study gives the same text on another machine.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,35 +16,71 @@ from ..material import prony_series
 from ..material.wlf import referred_to
 from ..study import Case
 from ..units import DECK_DENSITY, DECK_LENGTH, DECK_STRESS, US
+from .form import Form
+from .inputs import Inputs
 from .keywords import comment, integers, keyword, number, reals, table
 from .mesh import BlockMesh
-from .placement import LEAD_IN, MountTable
+from .placement import LEAD_IN, Placement
+from .vfric import STATES
 
 FloatArray = NDArray[np.float64]
 
 ROAD_NODE, RING_NODE = 9000001, 9000002  # beyond any block's nodes (see mesh.MOST_ELEMENTS)
 ROAD_MARGIN = 50.0  # mm of plane beyond the block's reach
-ENERGIES = "ALLIE, ALLKE, ALLAE, ALLVD, ALLCD, ALLSE, ALLFD, ALLWK, ETOTAL"
+INTERACTION = "TREAD_ROAD"
+SYMMETRY = "SYMMETRY_PLANE"
+"""Node set of the plane of symmetry: a deck that has it models half the block, and its forces count twice."""
 
 
-def mesh(block: BlockMesh, points: FloatArray) -> list[str]:
-    """Nodes, elements, sets and the contact surface."""
+def mesh_lines(block: BlockMesh, points: FloatArray, rows: bool, decimals: int = 5) -> list[str]:
+    """Nodes, elements, sets and the contact surface; with `rows`, a node set for each row of mount nodes."""
     node = np.arange(1, points.shape[0] + 1)
     element = np.arange(1, block.elements.shape[0] + 1)
-    return [
-        comment("Block: hexahedra with one integration point, nodes 1-4 of each towards the road"),
+    lines = [
+        comment("Block: hexahedra with one integration point, nodes 1-4 of each towards the road; mm"),
         keyword("NODE", NSET="BLOCK_NODES"),
-        table([node, *_round(points, 5).T], ["%d", "%.5f", "%.5f", "%.5f"]),
+        table([node, *points.T], ["%d", *[f"%.{decimals}f"] * 3]),
         keyword("ELEMENT", TYPE="C3D8R", ELSET="BLOCK"),
         table([element, *(block.elements.T + 1)], ["%d"] * 9),
-        keyword("NSET", NSET="MOUNT"),
-        *integers(block.mount_nodes + 1),
-        keyword("NSET", NSET="FACE_NODES"),
-        *integers(block.face_nodes + 1),
+    ]
+    sets = {"MOUNT": block.mount_nodes, "FACE_NODES": block.face_nodes}
+    if block.symmetry_nodes.size:
+        sets[SYMMETRY] = np.setdiff1d(block.symmetry_nodes, block.mount_nodes)
+    if rows:
+        place = mount_place(block)
+        for index, s in enumerate(np.unique(place), start=1):
+            sets[f"MOUNT_{index:03d}"] = block.mount_nodes[place == s]
+    for name, nodes in sets.items():
+        lines += [keyword("NSET", NSET=name), *integers(nodes + 1)]
+    return [
+        *lines,
         keyword("ELSET", ELSET="FACE_ELEMENTS"),
         *integers(block.face_elements + 1),
         keyword("SURFACE", TYPE="ELEMENT", NAME="FACE"),
         "FACE_ELEMENTS, S1",
+    ]
+
+
+def mount_place(block: BlockMesh) -> FloatArray:
+    """Return the distance behind the leading corner of every mount node, mm, equal within a row."""
+    return np.asarray(np.round(block.s[block.mount_nodes], 9), dtype=np.float64)
+
+
+def mesh(form: Form, block: BlockMesh, placement: Placement, block_name: str, rows: bool) -> list[str]:
+    """Put the block where it starts: from a file in its own frame, or with its nodes in place."""
+    if form.single_file:
+        return mesh_lines(block, np.round(placement.placed(placement.written), 8) + 0.0, rows, decimals=8)
+    x, y = placement.origin.tolist()
+    c, s = 100.0 * math.cos(placement.angle), 100.0 * math.sin(placement.angle)
+    return [
+        comment("Frame of the block at the start of the lead-in: origin on the mount above the leading corner, then a"),
+        comment("point on its x axis (direction of travel) and one on its y axis (away from the road)"),
+        keyword("SYSTEM"),
+        f"{x:.9f}, {y:.9f}, 0., {x + c:.9f}, {y + s:.9f}, 0.",
+        f"{x - s:.9f}, {y + c:.9f}, 0.",
+        *form.include(f"mesh-{block_name}", mesh_lines(block, placement.written, rows)),
+        comment("From here on in the frame of the axle again"),
+        keyword("SYSTEM"),
     ]
 
 
@@ -70,7 +105,7 @@ def material(case: Case) -> list[str]:
             comment(
                 "Loss above the band of the Prony series, without which sliding rubber flutters at mesh frequencies"
             ),
-            keyword("DAMPING", BETA=number(case.deck.stiffness_damping_us * 1e-6)),
+            keyword("DAMPING", BETA=number(case.deck.stiffness_damping_us * US)),
         ]
     if ratios.size:
         lines += [
@@ -83,75 +118,72 @@ def material(case: Case) -> list[str]:
     return lines
 
 
-def road(path: Path, creep_ratio: float, points: FloatArray, pass_time: float) -> list[str]:
+def road(form: Form, inputs: Inputs, path: Path, placement: Placement) -> list[str]:
     """Build the rigid road with its reference node: a plane, or the big wheel as three arcs.
 
     Outward is to the left of the profile's direction in the local axes x, y, where y is x cross the generator;
     so the plane runs towards +x and the circle clockwise.
     """
+    y = form.put(inputs["road_y"])
     if path.road.is_plane:
-        reach = _plane_reach(path, creep_ratio, points, pass_time)
-        place = (0.0, 0.0, 0.0)
-        profile = [
-            f"START, {number(reach[0])}, 0.",
-            f"LINE, {number(reach[1])}, 0.",
-        ]
-        what = "Road: rigid plane"
+        begin, end = _plane_reach(path, inputs["creep_ratio"].number, placement.points, inputs["pass_time"].number)
+        profile = [f"START, {number(begin)}, 0.", f"LINE, {number(end)}, 0."]
+        what = f"Road: rigid plane, long enough for the run with {ROAD_MARGIN:g} mm to spare at either end"
     else:
         radius = path.road.radius * DECK_LENGTH
-        place = (0.0, -radius, 0.0)
         high, wide = 0.5 * radius, 0.5 * math.sqrt(3.0) * radius
         corners = [(0.0, -radius), (-wide, high), (wide, high), (0.0, -radius)]
-        start, *ends = [f"{number(x)}, {number(y)}" for x, y in corners]
-        profile = [f"START, {start}", *(f"CIRCL, {end}, 0., 0." for end in ends)]
-        what = "Road: rigid big wheel"
-    x, y, z = place
+        start, *ends = [f"{number(px)}, {number(py)}" for px, py in corners]
+        profile = [f"START, {start}", *(f"CIRCL, {end_}, 0., 0." for end_ in ends)]
+        what = "Road: rigid big wheel; three arcs, since an arc must stay under 180 deg"
     return [
         comment(what),
         keyword("NODE", NSET="ROAD_REF"),
-        ", ".join([str(ROAD_NODE), *(number(value) for value in place)]),
+        f"{ROAD_NODE}, 0., {y}, 0.",
+        comment("Analytical surface. Its local axes: origin a, local x from a to b, generator from a to c (across),"),
+        comment("local y = x cross generator. The body of the road lies to the right of the profile's direction."),
         keyword("SURFACE", TYPE="CYLINDER", NAME="ROAD"),
-        ", ".join(number(value) for value in (x, y, z, x + 1.0, y, z)),
-        ", ".join(number(value) for value in (x, y, z - 1.0)),
+        f"0., {y}, 0., 1., {y}, 0.",
+        f"0., {y}, -1.",
         *profile,
         keyword("RIGID BODY", REF_NODE="ROAD_REF", ANALYTICAL_SURFACE="ROAD"),
-    ]
+    ]  # fmt: skip
 
 
 def ring(path: Path) -> list[str]:
     """Build the rigid ring: the mount's nodes tied to a reference node on the small wheel's axle."""
-    axle = (0.0, float(path.line.parameters[2]) * DECK_LENGTH, 0.0)
     return [
         comment("Small wheel: rigid ring that carries the mount, turning about its axle"),
         keyword("NODE", NSET="RING_REF"),
-        ", ".join([str(RING_NODE), *(number(value) for value in axle)]),
+        ", ".join([str(RING_NODE), *(number(value) for value in axle(path))]),
         keyword("RIGID BODY", REF_NODE="RING_REF", TIE_NSET="MOUNT"),
     ]
 
 
-def mount_rows(block: BlockMesh, tables: Sequence[MountTable]) -> list[str]:
-    """Build a node set for each row of mount nodes and the amplitudes of its velocity (mm/s, total time)."""
-    lines = [comment("Belt: each row of mount nodes follows the belt; velocities in mm/s against total time")]
-    place = np.round(block.s[block.mount_nodes], 9)
-    for index, row in enumerate(tables, start=1):
+def axle(path: Path) -> tuple[float, float, float]:
+    """Return the place of the small wheel's axle, mm."""
+    return 0.0, float(path.line.parameters[2]) * DECK_LENGTH, 0.0
+
+
+def user_friction(form: Form, inputs: Inputs, properties: tuple[float, ...], kind: str) -> list[str]:
+    """Friction by a user routine: `kind` FRIC (VFRIC, contact pairs) or FRICTION (VFRICTION, general contact)."""
+    named = [form.put(value) for value in inputs.friction]
+    *rest, mass = [number(value, 13) for value in properties[len(named) :]]
+    texts = [*named, *rest, mass]
+    lines = [comment("Properties of the friction routine, eight to a line:")]
+    lines += [comment(f"  {value.legend}") for value in inputs.friction]
+    if rest:
+        first = len(named) + 1
         lines += [
-            keyword("NSET", NSET=f"MOUNT_{index:03d}"),
-            *integers(block.mount_nodes[place == row.s] + 1),
+            comment(f"  property {first}: number of pressures, {first + 1}: number of slip speeds, then the"),
+            comment("  pressures (MPa), the slip speeds (mm/s) and the coefficients, one row a pressure"),
         ]
-        for axis, time, velocity in (("X", row.time_x, row.velocity_x), ("Y", row.time_y, row.velocity_y)):
-            lines += [
-                keyword("AMPLITUDE", NAME=f"V{axis}_{index:03d}", TIME="TOTAL TIME"),
-                *_pairs(time, velocity),
-            ]
-    return lines
-
-
-def user_friction(properties: Sequence[float]) -> list[str]:
-    """Contact with VFRIC."""
+    lines.append(comment(f"  property {len(texts)}: mass of the face's nodes per area, t/mm2 (of this mesh)"))
     return [
-        keyword("SURFACE INTERACTION", NAME="TREAD_ROAD"),
-        keyword("FRICTION", USER="FRIC", PROPERTIES=len(properties), DEPVAR=1),
-        *reals(properties, digits=13),
+        keyword("SURFACE INTERACTION", NAME=INTERACTION),
+        *lines,
+        keyword("FRICTION", USER=kind, PROPERTIES=len(texts), DEPVAR=STATES[kind]),
+        *[", ".join(texts[i : i + 8]) for i in range(0, len(texts), 8)],
     ]
 
 
@@ -161,107 +193,58 @@ def face_mass(case: Case, block: BlockMesh) -> float:
     return 0.5 * case.compound.density_kg_m3 * DECK_DENSITY * layer
 
 
-def constant_friction(coefficient: float) -> list[str]:
+def constant_friction(form: Form, inputs: Inputs, coefficient: float) -> list[str]:
     """Contact with built-in Coulomb friction, to compare with."""
+    static = inputs["friction_static"]
+    value = form.put(static) if coefficient == static.number else reals([coefficient])[0]
     return [
-        comment("Variant: built-in friction at the static coefficient instead of VFRIC"),
-        keyword("SURFACE INTERACTION", NAME="TREAD_ROAD"),
+        comment("Variant: built-in constant friction instead of VFRIC"),
+        keyword("SURFACE INTERACTION", NAME=INTERACTION),
         keyword("FRICTION"),
-        number(coefficient) + ",",
+        f"{value},",
     ]
 
 
-def initial_conditions(case: Case, block: BlockMesh, path: Path, velocities: FloatArray) -> list[str]:
+def initial_conditions(form: Form, inputs: Inputs, case: Case, path: Path, placement: Placement) -> list[str]:
     """Uniform temperature, and the rigid motion that everything starts with."""
-    node = np.repeat(np.arange(1, block.s.size + 1), 2)
-    dof = np.tile([1, 2], block.s.size)
+    rate = form.put(inputs["block_rate"])
+    if case.path.mount_is_rigid:
+        shift = "0., 0., 0."
+        x, y, _ = axle(path)
+    else:
+        shift = f"{form.put(inputs['start_x'])}, {form.put(inputs['start_y'])}, 0."
+        x, y = placement.origin.tolist()
+    point = f"{x:.9f}, {y:.9f}"
     lines = [
         keyword("INITIAL CONDITIONS", TYPE="TEMPERATURE"),
-        f"BLOCK_NODES, {number(case.temperature)}",
+        f"BLOCK_NODES, {form.put(inputs['temperature'])}",
+        comment("Node set, angular velocity about the axis from a to b, velocity (x, y, z); then a and b"),
+        keyword("INITIAL CONDITIONS", TYPE="ROTATING VELOCITY"),
+        f"BLOCK_NODES, {rate}, {shift}",
+        f"{point}, 0., {point}, 1.",
         keyword("INITIAL CONDITIONS", TYPE="VELOCITY"),
-        ", ".join(["ROAD_REF", *_road_rate(case, path)]),
+        f"ROAD_REF, {road_freedom(path)}, {form.put(inputs['road_rate'])}",
     ]
     if case.path.mount_is_rigid:
-        lines.append(f"RING_REF, 6, {number(_ring_rate(path))}")
-    lines.append(table([node, dof, _round(velocities.ravel(), 3)], ["%d", "%d", "%.3f"]))
+        lines.append(f"RING_REF, 6, {rate}")
     return lines
 
 
-def fixed_supports(case: Case) -> list[str]:
+def fixed_supports(case: Case, block: BlockMesh) -> list[str]:
     """Build the degrees of freedom that never move."""
     free = 1 if not case.path.mount_is_rigid else 6
     lines = [keyword("BOUNDARY")]
     lines += [f"ROAD_REF, {first}, {last}" for first, last in ((1, free - 1), (free + 1, 6)) if first <= last]
     lines.append("RING_REF, 1, 5" if case.path.mount_is_rigid else "MOUNT, 3, 3")
+    if block.symmetry_nodes.size:
+        lines += [comment("Half the block is modelled: forces, energies and areas of the whole are twice those here"),
+                  f"{SYMMETRY}, ZSYMM"]  # fmt: skip
     return lines
 
 
-def steps(case: Case, path: Path, pass_time: float, tables: Sequence[MountTable]) -> list[str]:
-    """Build the lead-in and the pass: velocities and contact are set in the first step and go on in the second."""
-    viscosity = ", ".join(number(value) for value in case.deck.bulk_viscosity)
-    dof, rate = _road_rate(case, path)
-    lines = [
-        comment("Lead-in: no contact yet"),
-        keyword("STEP", NAME="approach", NLGEOM="YES"),
-        keyword("DYNAMIC", "EXPLICIT"),
-        f", {number(LEAD_IN)}",
-        keyword("BULK VISCOSITY"),
-        viscosity,
-        keyword("BOUNDARY", TYPE="VELOCITY"),
-        f"ROAD_REF, {dof}, {dof}, {rate}",
-    ]
-    if case.path.mount_is_rigid:
-        lines.append(f"RING_REF, 6, 6, {number(_ring_rate(path))}")
-    for index in range(1, len(tables) + 1):
-        for axis, direction in (("X", 1), ("Y", 2)):
-            lines += [
-                keyword("BOUNDARY", TYPE="VELOCITY", AMPLITUDE=f"V{axis}_{index:03d}"),
-                f"MOUNT_{index:03d}, {direction}, {direction}, 1.",
-            ]
-    interval = number(case.deck.history_interval_us * US)
-    return [
-        *lines,
-        keyword("CONTACT PAIR", INTERACTION="TREAD_ROAD", MECHANICAL_CONSTRAINT="KINEMATIC", CPSET="TREAD_ROAD_PAIR"),
-        "FACE, ROAD",
-        keyword("OUTPUT", "FIELD", NUMBER_INTERVAL=1),
-        keyword("NODE OUTPUT"),
-        "U,",
-        keyword("END STEP"),
-        comment("Pass: from the first touch until the block is clear of the road"),
-        keyword("STEP", NAME="pass", NLGEOM="YES"),
-        keyword("DYNAMIC", "EXPLICIT"),
-        f", {number(pass_time)}",
-        keyword("BULK VISCOSITY"),
-        viscosity,
-        keyword("OUTPUT", "HISTORY", TIME_INTERVAL=interval),
-        keyword("CONTACT OUTPUT", CPSET="TREAD_ROAD_PAIR"),
-        "CFN, CFS",
-        keyword("NODE OUTPUT", NSET="ROAD_REF"),
-        "RF, RM, U, UR, V",
-        keyword("ENERGY OUTPUT"),
-        ENERGIES,
-        keyword("OUTPUT", "FIELD", NUMBER_INTERVAL=case.deck.field_frames),
-        keyword("NODE OUTPUT"),
-        "U, V",
-        keyword("ELEMENT OUTPUT", ELSET="BLOCK"),
-        "S, LE",
-        keyword("CONTACT OUTPUT", CPSET="TREAD_ROAD_PAIR"),
-        "CSTRESS, FSLIP, FSLIPR",
-        keyword("END STEP"),
-    ]
-
-
-def _road_rate(case: Case, path: Path) -> tuple[str, str]:
-    """Return the road's degree of freedom and its rate: the plane slides along x, the wheel turns about z."""
-    speed = path.speed * (1.0 + (case.creep_ratio or 0.0))
-    if path.road.is_plane:
-        return "1", number(speed * DECK_LENGTH)
-    return "6", number(-speed / path.road.radius)
-
-
-def _ring_rate(path: Path) -> float:
-    """Return the small wheel's angular velocity, rad/s."""
-    return path.speed * float(path.line.curvature(0.0))
+def road_freedom(path: Path) -> int:
+    """Return the degree of freedom in which the road moves: the plane slides along x, the wheel turns about z."""
+    return 1 if path.road.is_plane else 6
 
 
 def _plane_reach(path: Path, creep_ratio: float, points: FloatArray, pass_time: float) -> tuple[float, float]:
@@ -272,14 +255,3 @@ def _plane_reach(path: Path, creep_ratio: float, points: FloatArray, pass_time: 
     moved = path.speed * (1.0 + creep_ratio) * (t + LEAD_IN) * DECK_LENGTH
     place = np.append((block - moved).ravel(), points[:, 0])
     return math.floor(place.min() - ROAD_MARGIN), math.ceil(place.max() + ROAD_MARGIN)
-
-
-def _pairs(time: FloatArray, value: FloatArray) -> list[str]:
-    """Return (time, value) pairs, four to a line."""
-    text = [f"{t:.9f}, {v:.4f}" for t, v in zip(time.tolist(), _round(value, 4).tolist(), strict=True)]
-    return [", ".join(text[i : i + 4]) for i in range(0, len(text), 4)]
-
-
-def _round(values: FloatArray, decimals: int) -> FloatArray:
-    """Round, and make -0 a 0: what is left does not hang on the last bit of another machine's sine."""
-    return np.round(values, decimals) + 0.0

@@ -12,6 +12,11 @@ from importlib.resources import files
 
 from ..friction import FORMS, FrictionLaw
 
+PAIRS, GENERAL = "FRIC", "FRICTION"
+"""Values of ``*FRICTION, USER=``: VFRIC for contact pairs, VFRICTION for general contact."""
+STATES = {PAIRS: 1, GENERAL: 2}
+"""State variables that each routine keeps (``DEPVAR``)."""
+
 
 @dataclass(frozen=True)
 class UserFriction:
@@ -23,15 +28,18 @@ class UserFriction:
         Fortran (fixed form) of VFRIC.
     properties : tuple of float
         Its properties, in deck units (MPa, mm/s); their meaning is in the source's comments.
+    general_source : str
+        Fortran (fixed form) of VFRICTION, for general contact; the same properties.
     """
 
     source: str
     properties: tuple[float, ...]
+    general_source: str
 
 
 def user_friction(law: FrictionLaw, mass_per_area: float = 0.0) -> UserFriction:
     """Return VFRIC and its properties for `law` and the face nodes' mass per area, t/mm2."""
-    return UserFriction(source(law.kind), properties(law, mass_per_area))
+    return UserFriction(source(law.kind), properties(law, mass_per_area), source(law.kind, GENERAL))
 
 
 def properties(law: FrictionLaw, mass_per_area: float = 0.0) -> tuple[float, ...]:
@@ -43,12 +51,16 @@ def properties(law: FrictionLaw, mass_per_area: float = 0.0) -> tuple[float, ...
 
 
 @cache
-def source(kind: str) -> str:
-    """Return the Fortran text of VFRIC for a form of law, by its name."""
+def source(kind: str, contact: str = PAIRS) -> str:
+    """Return the Fortran text of VFRIC (`contact` FRIC) or VFRICTION (FRICTION) for a form of law, by its name."""
     folder = files("tread_validate.deck") / "templates"
+    pairs = contact == PAIRS
+    name, use = ("VFRIC", "contact pairs, kinematic") if pairs else ("VFRICTION", "general contact")
+    state = "statev(1,n) is 1 where slave node n" if pairs else "state(1,1,k) is 1 where contact point k"
     head = (
-        "c     VFRIC: friction between tread block and road.\n"
-        "c     For ABAQUS/Explicit, contact pairs, kinematic, double precision.\n"
+        f"c     {name}: friction between tread block and road.\n"
+        f"c     For ABAQUS/Explicit, {use}.\n"
+        "c     Run with double=both.\n"
         "c     Units of the deck: mm, tonne, s, MPa, N.\n"
         f"c     Law: {kind}. Its constants are the properties in the deck.\n"
         "c     A point at rest stays so while the force that stops its slip is\n"
@@ -58,8 +70,9 @@ def source(kind: str) -> str:
         "c     normal force can stop it; then it is at rest again.\n"
         "c     props(nProps) is the mass of the face nodes per area: with it\n"
         "c     fStickForce tells the slip speed that a force leaves.\n"
-        "c     statev(1,n) is 1 where slave node n slips.\n"
+        f"c     {state} slips.\n"
         "c\n"
     )
-    frame = (folder / "vfric.f").read_text(encoding="utf-8")
-    return head + frame + FORMS[kind].fortran
+    frame = (folder / ("vfric.f" if pairs else "vfriction.f")).read_text(encoding="utf-8")
+    slip = (folder / "fricsl.f").read_text(encoding="utf-8")
+    return head + frame + slip + FORMS[kind].fortran

@@ -12,6 +12,7 @@ import pandas as pd
 
 from ..files import write_text
 from ..history import History
+from ..inp.symmetry import whole, whole_force
 from ..provenance import sha256_text
 from ..units import DECK_LENGTH, DECK_STRESS
 from ..yaml_text import write_yaml
@@ -24,7 +25,7 @@ AXES = ("x", "y", "z")
 
 @dataclass(frozen=True)
 class FeResult:
-    """Histories of the last step of a deck, SI.
+    """Histories of the last step of a deck, SI; of the whole block where the deck models half of it.
 
     Attributes
     ----------
@@ -71,13 +72,14 @@ def collect(simulation: Simulation, record: Mapping[str, Any], provenance: Mappi
     """Turn a finished simulation into a result."""
     s = simulation.samples
     time = np.array(s.time)
-    normal = np.array(s.normal)
-    tangential = np.array(s.tangential)
+    deck = simulation.model.deck
+    normal = whole_force(deck, np.array(s.normal))
+    tangential = whole_force(deck, np.array(s.tangential))
     force = normal + tangential
     history = History(time, force[:, 1], -force[:, 0], np.array(s.slipping), provenance)
     energies = pd.DataFrame(s.energy, columns=list(ENERGY_COLUMNS))
-    energies[list(ENERGY_COLUMNS[1:])] *= JOULE
-    reaction = np.array(s.reaction)
+    energies[list(ENERGY_COLUMNS[1:])] *= JOULE * whole(deck)
+    reaction = whole_force(deck, np.array(s.reaction))
     reactions = pd.DataFrame({"time_s": time, **{f"reaction_{a}_N": reaction[:, i] for i, a in enumerate(AXES)}})
     contact = pd.DataFrame(
         {

@@ -13,6 +13,7 @@ import numba
 from ..errors import InputError
 from ..files import read_text
 from ..inp import problem_of
+from ..inp.symmetry import is_half
 from ..provenance import commit, sha256_text, version
 from ..source_code import code_digest
 from .explicit import Simulation
@@ -116,6 +117,7 @@ def _record(
             "recursions": simulation.blocks.terms,
         },
         "strain_measure": STRAIN_MEASURE,
+        "symmetry": "half, forces and energies doubled" if is_half(model.deck) else "full",
         "hourglass": sorted({section.hourglass for section in model.sections}),
         "threads": threads,
         "wall_time_s": round(wall, 3),

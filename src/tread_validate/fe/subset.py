@@ -55,7 +55,7 @@ SUBSET: dict[str, Keyword] = {
         "model", {"REF NODE": ANY, "TIE NSET": ANY, "PIN NSET": ANY, "ANALYTICAL SURFACE": ANY}, ("REF NODE",)
     ),
     "AMPLITUDE": Keyword(
-        "model",
+        "both",
         {
             "NAME": ANY,
             "DEFINITION": ("TABULAR", "SMOOTH STEP"),

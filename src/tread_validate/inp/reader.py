@@ -100,7 +100,10 @@ class _Open:
         self.texts += texts
 
     def closed(self) -> Block:
-        """Return the finished block."""
+        """Return the finished block; a factor of 1 on an amplitude is left out, as the same deck without it reads."""
+        for name in ("SCALEX", "SCALEY"):
+            if self.keyword == "AMPLITUDE" and self.parameters.get(name) in ("1", "1.", "1.0"):
+                del self.parameters[name]
         data = Lines(self.files or self.file, self.numbers, self.texts)
         return Block(self.keyword, self.parameters, data, self.file, self.line, self.raw)
 

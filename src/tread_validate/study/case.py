@@ -104,7 +104,7 @@ class Case:
 
     def input_files(self) -> tuple[Path, ...]:
         """Return the data files that this case reads."""
-        named = [getattr(item, "file", None) for item in (self.compound, self.friction, self.path)]
+        named = [getattr(item, "file", None) for item in (self.compound, self.friction, self.path)] + [self.block.mesh]
         return tuple(self.root / name for name in named if name is not None)
 
     def problem_digest(self) -> str:

@@ -63,4 +63,7 @@ def load_study(path: Path | str) -> LoadedStudy:
             file = getattr(item, "file", None)
             if file is not None and not (root / file).is_file():
                 raise InputError(f"{source}: {section}.{name}.file", file, f"an existing file below {root.name}/")
+    for name, block in model.blocks.items():
+        if block.mesh is not None and not (root / block.mesh).is_file():
+            raise InputError(f"{source}: blocks.{name}.mesh", block.mesh, f"an existing file below {root.name}/")
     return study

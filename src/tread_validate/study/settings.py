@@ -38,3 +38,7 @@ class DeckSettings(Strict):
     history_interval_us: Positive = 20.0
     field_frames: Annotated[int, Field(ge=1, le=1000)] = 40
     constant_friction_variant: bool = Field(True, description="also write the deck with built-in constant friction")
+    symmetry: Literal["full", "half"] = Field(
+        "full",
+        description="half: only z >= 0 of a rectangle is meshed, with a plane of symmetry; readers double forces",
+    )
