@@ -143,7 +143,9 @@ def build(case: Case, *, single_file: bool = False, general_contact: bool = Fals
     )
 
 
-def write(case: Case, directory: FilePath | str, *, single_file: bool = False, general_contact: bool = False) -> WrittenDeck:
+def write(
+    case: Case, directory: FilePath | str, *, single_file: bool = False, general_contact: bool = False
+) -> WrittenDeck:
     """Build the deck of a case and write its `files` and ``mesh.vtu``; see `build`.
 
     Include files that an earlier deck in the folder left behind and this one does not use are removed.
