@@ -37,8 +37,9 @@ from .kernel_data import (
     Prescribed,
 )
 from .model import Model
-from .pairs import PairData, gather_pairs
+from .pairs import PairData, gather_pairs, held_nodes
 from .relaxation import step_coefficients
+from .stability import StableIncrement, dot
 from .step_kernel import evaluate_amplitudes
 from .steps import Step
 from .user_friction import UserRoutine
@@ -113,6 +114,7 @@ class Simulation:
         self.pairs: list[PairData] = []
         self.observer: Callable[[float], None] | None = None
         self.prescribed: Prescribed
+        self.stability: StableIncrement | None = None
 
     def _scale_masses(self) -> None:
         """Apply the fixed mass scaling of the first step; later steps keep it."""
@@ -159,10 +161,18 @@ class Simulation:
         return np.array(self.nodes.u.reshape(-1, 3)[:-1], dtype=np.float64)
 
     def stable_increment(self, step: Step) -> float:
-        """Return the automatic increment at this moment: the least of the elements', times the safety factor."""
+        """Return the automatic increment at this moment, times the safety factor.
+
+        From the highest frequency of the whole mesh, or of its elements one by one where the step asks for that.
+        """
         b = self.blocks
-        gradient = np.einsum("nac,nja->ncj", self.nodes.u.reshape(-1, 3)[b.connectivity], b.gradients)
-        return step.scale * SAFETY * float(b.stable_increments(gradient).min())
+        if step.element_by_element:
+            gradient = np.einsum("nac,nja->ncj", self.nodes.u.reshape(-1, 3)[b.connectivity], b.gradients)
+            return step.scale * SAFETY * float(b.stable_increments(gradient).min())
+        if self.stability is None:
+            free = ~held_nodes(self.model, self.bodies, self.prescribed)
+            self.stability = StableIncrement(b, free)
+        return step.scale * SAFETY * self.stability.increment(self.nodes.u.reshape(-1, 3)[:-1])
 
     def run(self, progress: Progress | None = None) -> None:
         """Run every step; samples are those of the last one.
@@ -226,6 +236,7 @@ class Simulation:
             if old is not None:
                 data.pair.force[:] = old.pair.force
                 data.arguments.arrays["statev"][:] = old.arguments.arrays["statev"]
+        self.stability = None  # other nodes may be held
         set_bulk_viscosity(self.blocks, self.model, step.linear_viscosity, step.quadratic_viscosity)
         if number == 0:
             self._kernel(0, 1.0, np.zeros(3, dtype=np.int64))  # compile or load before the clock runs
@@ -324,7 +335,7 @@ class Simulation:
         if not math.isfinite(kinetic + stored):
             raise EngineError(f"the energy is no longer finite at {now:.6g} s")
         # velocities live half an increment before the displacements; internal energy is taken back to them
-        lead = 0.5 * self.clock[LAST_INCREMENT] * float(self.nodes.force @ self.nodes.v)
+        lead = 0.5 * self.clock[LAST_INCREMENT] * float(dot(self.nodes.force, self.nodes.v))
         stored, stress_work = stored - lead, stress_work - lead
         internal = stress_work + hourglass
         external, friction, impact = (float(self.work[row]) for row in (EXTERNAL, FRICTION, IMPACT))

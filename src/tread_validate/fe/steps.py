@@ -70,6 +70,8 @@ class Step:
         Duration.
     increment : float or None
         The increment of ``DIRECT USER CONTROL``; None is automatic.
+    element_by_element : bool
+        Whether the automatic increment comes from the elements one by one.
     """
 
     name: str
@@ -77,6 +79,7 @@ class Step:
     period: float = 0.0
     increment: float | None = None
     scale: float = 1.0
+    element_by_element: bool = False
     linear_viscosity: float = 0.06
     quadratic_viscosity: float = 1.2
     conditions: dict[tuple[int, int], Condition] = field(default_factory=dict)
@@ -173,6 +176,7 @@ def _dynamic(block: Block, step: Step) -> None:
             raise InputError(line.where, line.text, "an increment above 0, not longer than the step")
     elif any(line.fields[i] for i in (0, 2, 3) if i < len(line.fields)):
         raise InputError(line.where, line.text, "', duration' (automatic increments)")
+    step.element_by_element = "ELEMENT BY ELEMENT" in block.parameters
     if "SCALE FACTOR" in block.parameters:
         step.scale = _positive(block, "SCALE FACTOR")
 
