@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
+from ..columns import read_columns
 from ..errors import InputError
-from ..files import read_text
 from .piecewise import transform
 from .stimulus import Stimulus
 
@@ -151,30 +149,11 @@ def read_transfer_function(path: Path | str) -> TransferFunction:
 
 def _read(path: Path | str, columns: tuple[str, ...]) -> tuple[NDArray[np.float64], tuple[str, str]]:
     """Return the table and (quantity, unit)."""
-    lines = read_text(path).splitlines()
-    notes = {"quantity": "response", "unit": "1"}
-    start = 0
-    while start < len(lines) and lines[start].startswith("#"):
-        key, _, value = lines[start][1:].partition(":")
-        notes[key.strip()] = value.strip()
-        start += 1
-    header = tuple(name.strip() for name in lines[start].split(",")) if start < len(lines) else ()
-    if header != columns:
-        raise InputError(f"{path}:{start + 1}", ",".join(header)[:80] or "no header", "header " + ",".join(columns))
-    for row, line in enumerate(lines[start + 1 :], start=start + 2):
-        if line.count(",") != len(columns) - 1:
-            raise InputError(f"{path}:{row}", f"{line.count(',') + 1} fields", f"{len(columns)} numbers")
-    try:
-        frame = pd.read_csv(io.StringIO("\n".join(lines[start:])), dtype=np.float64)
-    except (ValueError, pd.errors.ParserError) as error:
-        raise InputError(path, error, "numbers only below the header") from None
-    table = frame.to_numpy(dtype=np.float64)
-    if table.shape[0] < 2 or table.shape[1] != len(columns):
+    read = read_columns(path, columns)
+    table = np.column_stack([read[name] for name in columns])
+    if table.shape[0] < 2:
         raise InputError(path, f"{table.shape[0]} row(s)", f"at least 2 rows of {len(columns)} numbers")
-    if not np.all(np.isfinite(table)):
-        row = int(np.argmax(~np.isfinite(table).all(axis=1)))
-        raise InputError(f"{path}: row {row + 1}", "a value that is missing or not finite", "finite numbers")
     if not np.all(np.diff(table[:, 0]) > 0):
-        row = int(np.argmax(np.diff(table[:, 0]) <= 0)) + 2
-        raise InputError(f"{path}: {columns[0]}, row {row}", table[row - 1, 0], "a value above the one before")
-    return table, (notes["quantity"], notes["unit"])
+        row = int(np.argmax(np.diff(table[:, 0]) <= 0)) + 1
+        raise InputError(f"{read.where(row)}: {columns[0]}", table[row, 0], "a value above the one before")
+    return table, (read.comments.get("quantity", "response"), read.comments.get("unit", "1"))

@@ -127,10 +127,10 @@ def test_impulse_response_file_reads_with_its_unit(tmp_path):
         (IMPULSE.replace("0.002,0,0", "0.002,50,0"), "died away"),
         (IMPULSE.replace("0,0,0\n0.001", "-1,0,0\n0.001"), "before the impulse"),
         (IMPULSE.replace("0.002,0,0", "0.001,0,0"), "above the one before"),
-        (IMPULSE.replace("100", "nan"), "not finite"),
-        (IMPULSE.replace("100", "x"), "numbers only"),
-        (IMPULSE.replace(",10\n", "\n"), "2 fields"),
-        (IMPULSE.replace("to_normal,", "normal,"), "header time_s,to_normal,to_tangential"),
+        (IMPULSE.replace("100", "nan"), ":5: to_normal: got an empty cell"),
+        (IMPULSE.replace("100", "x"), ":5: to_normal: got 'x', expected a number"),
+        (IMPULSE.replace(",10\n", "\n"), ":5: got 2 cells"),
+        (IMPULSE.replace("to_normal,", "normal,"), "expected column to_normal"),
     ],
 )
 def test_wrong_impulse_response_is_refused(tmp_path, text, says):
