@@ -16,8 +16,7 @@ from tread_validate import __version__, deck
 from tread_validate.deck.keywords import comment, keyword, number
 from tread_validate.deck.model import INCLUDED
 from tread_validate.errors import InputError
-from tread_validate.inp import Block as KeywordBlock
-from tread_validate.inp import Deck, read_deck
+from tread_validate.inp import Deck, KeywordBlock, read_deck
 from tread_validate.material import prony_series
 from tread_validate.study import Case, load_study
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, Deck, label
+from ..inp import Deck, KeywordBlock, label
 from ..inp.amplitude import amplitude_table
 
 Array = NDArray[np.float64]
@@ -212,7 +212,7 @@ def _velocities(deck: Deck) -> _Prescribed:
     return found
 
 
-def _table(block: Block) -> tuple[Array, Array]:
+def _table(block: KeywordBlock) -> tuple[Array, Array]:
     if block.value("TIME", "STEP TIME") != "TOTAL TIME" or block.value("DEFINITION", "TABULAR") != "TABULAR":
         raise InputError(f"{block.where}: *AMPLITUDE", str(dict(block.parameters)), "TABULAR against TIME=TOTAL TIME")
     table = amplitude_table(block)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..files import read_text
-from ..inp import Block, Deck, label, read_deck
+from ..inp import Deck, KeywordBlock, label, read_deck
 from ..inp.sets import Sets
 from ..inp.symmetry import PLANE, is_half
 from ..inp.table import integer_rows, number_table
@@ -180,7 +180,7 @@ def _sets(deck: Deck) -> dict[str, tuple[int, ...]]:
     return {name: tuple(found.tolist()) for name, found in (*sets.elements.items(), *sets.nodes.items())}
 
 
-def _rows(block: Block) -> NDArray[np.int64]:
+def _rows(block: KeywordBlock) -> NDArray[np.int64]:
     """Return label and nodes of each element, (m, 9)."""
     rows = integer_rows(block.data, 9)
     if rows is None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block
+from ..inp import KeywordBlock
 from ..inp.amplitude import amplitude_table
 from ..kernels import kernel
 
@@ -40,7 +40,7 @@ class Amplitude:
         return np.concatenate([[0.0], np.cumsum(pieces)])
 
 
-def read_amplitudes(blocks: list[Block]) -> dict[str, Amplitude]:
+def read_amplitudes(blocks: list[KeywordBlock]) -> dict[str, Amplitude]:
     """Read the amplitudes: pairs time, value, up to four a line.
 
     Raises

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, DataLine
+from ..inp import DataLine, KeywordBlock
 from .mesh import Mesh
 
 Floats = NDArray[np.float64]
@@ -83,7 +83,7 @@ class Section:
     quadratic_scale: float = 1.0
 
 
-def read_materials(blocks: list[Block]) -> dict[str, Material]:
+def read_materials(blocks: list[KeywordBlock]) -> dict[str, Material]:
     """Read every material with its DENSITY, ELASTIC, VISCOELASTIC, TRS and DAMPING."""
     materials: dict[str, Material] = {}
     current: Material | None = None
@@ -102,14 +102,14 @@ def read_materials(blocks: list[Block]) -> dict[str, Material]:
     return materials
 
 
-def _only(block: Block, fields: int) -> DataLine:
+def _only(block: KeywordBlock, fields: int) -> DataLine:
     """Return the single data line of a property without field or temperature dependence."""
     if len(block.data) != 1 or len(block.data[0].fields) > fields:
         raise InputError(block.where, "a table" if block.data else "no data", f"one line of {fields} value(s)")
     return block.data[0]
 
 
-def _factor(block: Block, name: str) -> float:
+def _factor(block: KeywordBlock, name: str) -> float:
     """Return a parameter that is a finite number of at least 0."""
     text = block.value(name)
     try:
@@ -121,7 +121,7 @@ def _factor(block: Block, name: str) -> float:
     return value
 
 
-def _property(block: Block, material: Material) -> None:
+def _property(block: KeywordBlock, material: Material) -> None:
     if block.keyword == "DENSITY":
         material.density = _only(block, 1).number_at(0, "a density")
     elif block.keyword == "ELASTIC":
@@ -160,7 +160,7 @@ def _complete(material: Material) -> None:
             raise InputError(material.where, f"sum of {name}_i = {total:g}", "less than 1")
 
 
-def read_sections(blocks: list[Block], mesh: Mesh, materials: dict[str, Material]) -> list[Section]:
+def read_sections(blocks: list[KeywordBlock], mesh: Mesh, materials: dict[str, Material]) -> list[Section]:
     """Read SOLID SECTION with SECTION CONTROLS; every element must have one section."""
     controls = {b.value("NAME"): b for b in blocks if b.keyword == "SECTION CONTROLS"}
     sections: list[Section] = []

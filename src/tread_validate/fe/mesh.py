@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, DataLine, label
+from ..inp import DataLine, KeywordBlock, label
 from ..inp.deck import LARGEST_LABEL
 from ..inp.sets import Sets, is_label
 from ..inp.table import integer_rows, number_table
@@ -51,16 +51,16 @@ class Mesh:
     faces: dict[str, Ints] = field(default_factory=dict)
     rigid_surfaces: dict[str, RigidSurface] = field(default_factory=dict)
 
-    def nodes_of(self, text: str, line: DataLine | Block) -> Ints:
+    def nodes_of(self, text: str, line: DataLine | KeywordBlock) -> Ints:
         """Return node indices of a set name or a node label."""
         return _members(text, self.node_sets, self.node_labels, line.where, "node")
 
-    def elements_of(self, text: str, line: DataLine | Block) -> Ints:
+    def elements_of(self, text: str, line: DataLine | KeywordBlock) -> Ints:
         """Return element indices of a set name or an element label."""
         return _members(text, self.element_sets, self.element_labels, line.where, "element")
 
 
-def read_mesh(blocks: list[Block]) -> Mesh:
+def read_mesh(blocks: list[KeywordBlock]) -> Mesh:
     """Read NODE, ELEMENT, NSET, ELSET and SURFACE blocks.
 
     Raises
@@ -98,7 +98,7 @@ def _nodes_of(elements: Ints, mesh: Mesh) -> Ints:
     return np.unique(mesh.node_labels[mesh.connectivity[at]])
 
 
-def _nodes(blocks: list[Block]) -> tuple[Ints, Floats]:
+def _nodes(blocks: list[KeywordBlock]) -> tuple[Ints, Floats]:
     table = np.concatenate([number_table(block.data, 4, NODE_LINE) for block in blocks])
     array = table[:, 0].astype(np.int64)
     order = np.argsort(array, kind="stable")
@@ -109,7 +109,7 @@ def _nodes(blocks: list[Block]) -> tuple[Ints, Floats]:
     return array, np.ascontiguousarray(table[order, 1:])
 
 
-def _joined(block: Block) -> list[tuple[tuple[str, ...], str]]:
+def _joined(block: KeywordBlock) -> list[tuple[tuple[str, ...], str]]:
     """Join element lines that end with a comma to the next one."""
     rows: list[tuple[tuple[str, ...], str]] = []
     held: tuple[str, ...] = ()
@@ -126,7 +126,7 @@ def _joined(block: Block) -> list[tuple[tuple[str, ...], str]]:
     return rows
 
 
-def _element_rows(block: Block) -> Ints:
+def _element_rows(block: KeywordBlock) -> Ints:
     """Return label and nodes of each element of a block, (m, 9)."""
     rows = integer_rows(block.data, 9)
     if rows is not None:
@@ -144,7 +144,7 @@ def _element_rows(block: Block) -> Ints:
     return np.array(table, dtype=np.int64).reshape(-1, 9)
 
 
-def _elements(blocks: list[Block], labels: Ints) -> tuple[Ints, Ints]:
+def _elements(blocks: list[KeywordBlock], labels: Ints) -> tuple[Ints, Ints]:
     array = np.concatenate([_element_rows(block) for block in blocks])
     if not array.size:
         raise InputError(blocks[0].where, "no element", "at least one C3D8R")
@@ -174,7 +174,7 @@ def _members(text: str, sets: dict[str, Ints], labels: Ints, where: str, what: s
     return _index(np.array([int(name)], dtype=np.int64), labels, where, what)
 
 
-def _surface(block: Block, mesh: Mesh) -> None:
+def _surface(block: KeywordBlock, mesh: Mesh) -> None:
     name = block.value("NAME")
     if name in mesh.faces or name in mesh.rigid_surfaces:
         raise InputError(block.where, f"surface {name} twice", "each surface once")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, Deck, read_deck
+from ..inp import Deck, KeywordBlock, read_deck
 from .amplitude import read_amplitudes
 from .kernel_data import COULOMB, NO_FRICTION, USER
 from .material import Section, read_materials, read_sections
@@ -91,7 +91,7 @@ def read_model(path: Path | str) -> Model:
     return model
 
 
-def _rigid_bodies(blocks: list[Block], mesh: Mesh) -> list[RigidBody]:
+def _rigid_bodies(blocks: list[KeywordBlock], mesh: Mesh) -> list[RigidBody]:
     bodies: list[RigidBody] = []
     owner: dict[int, str] = {}
     for block in blocks:
@@ -123,7 +123,7 @@ def _rigid_bodies(blocks: list[Block], mesh: Mesh) -> list[RigidBody]:
     return bodies
 
 
-def _interactions(blocks: list[Block]) -> dict[str, Friction]:
+def _interactions(blocks: list[KeywordBlock]) -> dict[str, Friction]:
     found: dict[str, Friction] = {}
     name: str | None = None
     for block in blocks:
@@ -139,7 +139,7 @@ def _interactions(blocks: list[Block]) -> dict[str, Friction]:
     return found
 
 
-def _friction(block: Block) -> Friction:
+def _friction(block: KeywordBlock) -> Friction:
     if "USER" not in block.parameters:
         extra = [word for word in ("DEPVAR", "PROPERTIES") if word in block.parameters]
         if extra or len(block.data) != 1 or len(block.data[0].fields) != 1:
@@ -162,7 +162,7 @@ def _friction(block: Block) -> Friction:
     return Friction(USER, 0.0, tuple(values), counts[1], block.where)
 
 
-def _initial(blocks: list[Block], mesh: Mesh) -> tuple[Floats | None, Floats]:
+def _initial(blocks: list[KeywordBlock], mesh: Mesh) -> tuple[Floats | None, Floats]:
     count = mesh.node_labels.size
     velocity = np.zeros((count, 3))
     temperature: Floats | None = None
@@ -187,7 +187,7 @@ def _initial(blocks: list[Block], mesh: Mesh) -> tuple[Floats | None, Floats]:
     return temperature, velocity
 
 
-def _rotating(block: Block, mesh: Mesh, velocity: Floats) -> None:
+def _rotating(block: KeywordBlock, mesh: Mesh, velocity: Floats) -> None:
     """Set ``TYPE=ROTATING VELOCITY``: v = v0 + omega x (x - a), omega along the axis from a to b.
 
     Pairs of lines: node or set, rate (rad/s), v0; then a and b.

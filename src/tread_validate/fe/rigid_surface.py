@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, DataLine
+from ..inp import DataLine, KeywordBlock
 
 # Columns of a segment: kind (0 line, 1 arc), then for a line x0, y0, unit tangent (2), length, 0; for an arc its centre
 # (2), radius, +1 when the outward normal points away from the centre else -1, start angle, signed sweep.
@@ -39,7 +39,7 @@ class RigidSurface:
     where: str
 
 
-def read_rigid_surface(block: Block) -> RigidSurface:
+def read_rigid_surface(block: KeywordBlock) -> RigidSurface:
     """Read ``*SURFACE, TYPE=CYLINDER``.
 
     Raises

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..inp import Block, DataLine
+from ..inp import DataLine, KeywordBlock
 from .amplitude import Amplitude
 from .mesh import FACES, Mesh
 
@@ -91,7 +91,7 @@ class Step:
     renewed: set[str] = field(default_factory=set)
 
 
-def read_steps(blocks: list[Block], mesh: Mesh, amplitudes: dict[str, Amplitude]) -> list[Step]:
+def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amplitude]) -> list[Step]:
     """Read model-level BOUNDARY and every step; conditions, loads and pairs carry over to the next step."""
     steps: list[Step] = []
     current = Step("initial", blocks[0].where)
@@ -149,13 +149,13 @@ def _refuse_stale(step: Step) -> None:
             )
 
 
-def _line(block: Block) -> DataLine:
+def _line(block: KeywordBlock) -> DataLine:
     if len(block.data) != 1:
         raise InputError(f"{block.where}: *{block.keyword}", f"{len(block.data)} data lines", "one data line")
     return block.data[0]
 
 
-def _positive(block: Block, name: str) -> float:
+def _positive(block: KeywordBlock, name: str) -> float:
     try:
         value = float(block.value(name))
     except ValueError:
@@ -165,7 +165,7 @@ def _positive(block: Block, name: str) -> float:
     return value
 
 
-def _dynamic(block: Block, step: Step) -> None:
+def _dynamic(block: KeywordBlock, step: Step) -> None:
     line = _line(block)
     step.period = line.number_at(1, "the duration of the step")
     if not step.period > 0:
@@ -181,7 +181,7 @@ def _dynamic(block: Block, step: Step) -> None:
         step.scale = _positive(block, "SCALE FACTOR")
 
 
-def _amplitude(block: Block, amplitudes: dict[str, Amplitude]) -> Amplitude | None:
+def _amplitude(block: KeywordBlock, amplitudes: dict[str, Amplitude]) -> Amplitude | None:
     name = block.parameters.get("AMPLITUDE")
     if name is None:
         return None
@@ -190,7 +190,7 @@ def _amplitude(block: Block, amplitudes: dict[str, Amplitude]) -> Amplitude | No
     return amplitudes[name]
 
 
-def _is_first_new(block: Block, step: Step) -> bool:
+def _is_first_new(block: KeywordBlock, step: Step) -> bool:
     """Whether OP=NEW takes away what went before: the first such block of a keyword in a step does."""
     if block.parameters.get("OP") != "NEW" or block.keyword in step.renewed:
         return False
@@ -198,7 +198,7 @@ def _is_first_new(block: Block, step: Step) -> bool:
     return True
 
 
-def _boundary(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
+def _boundary(block: KeywordBlock, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
     if _is_first_new(block, step):
         step.conditions.clear()
     amplitude = _amplitude(block, amplitudes)
@@ -227,7 +227,7 @@ def _boundary(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: 
                 step.conditions[(int(node), dof)] = condition
 
 
-def _load(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
+def _load(block: KeywordBlock, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
     if _is_first_new(block, step):
         cloads = block.keyword == "CLOAD"
         step.loads = [load for load in step.loads if (load.dof > 0) != cloads]
@@ -254,7 +254,7 @@ def _load(block: Block, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step
             step.loads.append(Load(none, faces, 0, size, amplitude, line.where))
 
 
-def _pair(block: Block, step: Step) -> None:
+def _pair(block: KeywordBlock, step: Step) -> None:
     interaction = block.value("INTERACTION")
     for line in block.data:
         if len(line.fields) != 2:
@@ -263,7 +263,7 @@ def _pair(block: Block, step: Step) -> None:
         step.pairs.append(ContactPair(slave, master, interaction, line.where))
 
 
-def _mass_scaling(block: Block, mesh: Mesh, step: Step) -> None:
+def _mass_scaling(block: KeywordBlock, mesh: Mesh, step: Step) -> None:
     name = block.parameters.get("ELSET")
     elements = np.arange(mesh.element_labels.size) if name is None else mesh.elements_of(name, block)
     factor = _positive(block, "FACTOR") if "FACTOR" in block.parameters else None

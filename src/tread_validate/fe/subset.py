@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..errors import InputError
-from ..inp import Block, Deck
+from ..inp import Deck, KeywordBlock
 
 Level = Literal["model", "step", "both"]
 
@@ -129,7 +129,7 @@ def check_subset(deck: Deck) -> None:
         raise InputError(f"{deck.path.name}", "no *END STEP", "every step closed")
 
 
-def check_block(block: Block, inside_step: bool) -> None:
+def check_block(block: KeywordBlock, inside_step: bool) -> None:
     """Check one block against the table."""
     where = f"{block.where}: *{block.keyword}"
     rule = SUBSET.get(block.keyword)

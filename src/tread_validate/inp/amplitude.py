@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from .deck import Block
+from .deck import KeywordBlock
 
 Floats = NDArray[np.float64]
 
 
-def amplitude_table(block: Block) -> Floats:
+def amplitude_table(block: KeywordBlock) -> Floats:
     """Return the rows (time, value) of a tabular or smooth-step amplitude, up to four pairs to a line.
 
     SCALEX and SCALEY multiply times and values.
@@ -34,7 +34,7 @@ def amplitude_table(block: Block) -> Floats:
     return np.asarray(table, dtype=np.float64)
 
 
-def _factor(block: Block, name: str) -> float:
+def _factor(block: KeywordBlock, name: str) -> float:
     if name not in block.parameters:
         return 1.0
     try:

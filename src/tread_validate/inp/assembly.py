@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
-from .deck import LARGEST_LABEL, Block, DataLine, Lines, label
+from .deck import LARGEST_LABEL, DataLine, KeywordBlock, Lines, label
 from .placement import RigidMotion, instance_motion, moved_nodes, moved_profile, still, system_motion
 from .table import integer_rows
 
@@ -44,8 +44,8 @@ class _Part:
     """A part, or the own blocks of an instance or of the assembly."""
 
     name: str
-    at: Block
-    blocks: list[Block] = field(default_factory=list)
+    at: KeywordBlock
+    blocks: list[KeywordBlock] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -65,12 +65,14 @@ class _Scope:
         return f'"{self.prefix}.{named}"' if named in self.names and self.prefix else text
 
 
-def resolve(written: Sequence[Block], report: Report) -> tuple[tuple[Block, ...], tuple[tuple[int, str], ...]]:
+def resolve(
+    written: Sequence[KeywordBlock], report: Report
+) -> tuple[tuple[KeywordBlock, ...], tuple[tuple[int, str], ...]]:
     """Return the flat blocks of a deck and the first label of each instance.
 
     Parameters
     ----------
-    written : sequence of Block
+    written : sequence of KeywordBlock
         As read.
     report : callable
         Is told (rule, where, found, expected) of what does not resolve.
@@ -92,16 +94,16 @@ class _Resolver:
     def __init__(self, report: Report) -> None:
         self.report = report
         self.parts: dict[str, _Part] = {}
-        self.flat: list[Block] = []
+        self.flat: list[KeywordBlock] = []
         self.instances: list[tuple[int, str]] = []
         self.names: set[str] = set()
         self.next_label = 0
-        self.open: list[Block] = []
+        self.open: list[KeywordBlock] = []
         self.held: _Part | None = None
         self.assembly: _Part | None = None
         self.own: _Scope | None = None
 
-    def run(self, written: Sequence[Block]) -> tuple[tuple[Block, ...], tuple[tuple[int, str], ...]]:
+    def run(self, written: Sequence[KeywordBlock]) -> tuple[tuple[KeywordBlock, ...], tuple[tuple[int, str], ...]]:
         """Resolve all blocks."""
         self._number_assembly(written)
         for block in written:
@@ -120,10 +122,10 @@ class _Resolver:
                 self._end_instance(block)
         return tuple(_systems(self.flat)), tuple(self.instances)
 
-    def _tell(self, rule: str, block: Block, found: object, expected: str) -> None:
+    def _tell(self, rule: str, block: KeywordBlock, found: object, expected: str) -> None:
         self.report(rule, f"{block.where}: *{block.keyword}", found, expected)
 
-    def _number_assembly(self, written: Sequence[Block]) -> None:
+    def _number_assembly(self, written: Sequence[KeywordBlock]) -> None:
         """Nodes and elements of the assembly itself keep their labels: instances begin above them."""
         inside, assembly, largest = False, False, 0
         for block in written:
@@ -141,7 +143,7 @@ class _Resolver:
 
     # structure ------------------------------------------------------------------------------------------------
 
-    def _part(self, block: Block) -> None:
+    def _part(self, block: KeywordBlock) -> None:
         self._close_unfinished(block)
         name = block.parameters.get("NAME") or ""
         if name in self.parts:
@@ -149,27 +151,27 @@ class _Resolver:
         self.held = self.parts[name] = _Part(name, block)
         self.open.append(block)
 
-    def _end_part(self, block: Block) -> None:
+    def _end_part(self, block: KeywordBlock) -> None:
         self._close(block, "PART")
         self.held = None
 
-    def _assembly(self, block: Block) -> None:
+    def _assembly(self, block: KeywordBlock) -> None:
         self._close_unfinished(block)
         self.assembly = _Part("", block)
         self.open.append(block)
 
-    def _end_assembly(self, block: Block) -> None:
+    def _end_assembly(self, block: KeywordBlock) -> None:
         self._close(block, "ASSEMBLY")
         self.own, self.assembly = _Scope("", 0, frozenset()), None
 
-    def _instance(self, block: Block) -> None:
+    def _instance(self, block: KeywordBlock) -> None:
         if self.held is not None and self.held.at.keyword == "INSTANCE":
             self._tell("structure", block, f"*INSTANCE of {self.held.at.where} not ended", "*END INSTANCE first")
             self._end_instance(block)
         self.held = _Part(block.parameters.get("NAME") or "", block)
         self.open.append(block)
 
-    def _end_instance(self, block: Block) -> None:
+    def _end_instance(self, block: KeywordBlock) -> None:
         if self.held is None or self.held.at.keyword != "INSTANCE":
             self._close(block, "INSTANCE")
             return
@@ -181,7 +183,7 @@ class _Resolver:
             self.open.remove(own.at)
         self._place(own)
 
-    def _close(self, block: Block, keyword: str) -> None:
+    def _close(self, block: KeywordBlock, keyword: str) -> None:
         if self.open and self.open[-1].keyword == keyword:
             self.open.pop()
             return
@@ -193,7 +195,7 @@ class _Resolver:
             return
         self._tell("structure", block, f"no *{keyword} open", f"*{keyword} before it")
 
-    def _close_unfinished(self, block: Block) -> None:
+    def _close_unfinished(self, block: KeywordBlock) -> None:
         """A part or assembly begins: whatever part is still open has lost its end."""
         while self.open and self.open[-1].keyword in ("PART", "INSTANCE"):
             missing = self.open.pop()
@@ -240,7 +242,7 @@ class _Resolver:
                 self._tell("not-placed", block, f"in instance {name}, moved or renumbered", "an instance as it stands")
             self.flat.append(_qualified(block, scope, motion))
 
-    def _of_assembly(self, block: Block) -> Block:
+    def _of_assembly(self, block: KeywordBlock) -> KeywordBlock:
         """Return a block of the assembly or after it, with labels of the form ``INSTANCE.7`` resolved."""
         instance = block.parameters.get("INSTANCE")
         if block.keyword in ("NSET", "ELSET") and instance is not None:
@@ -251,7 +253,7 @@ class _Resolver:
             prefix = _Scope(instance, first, frozenset(self._names_of(instance)))
             block = _qualified(block, prefix, still(), define=False)
             parameters = {name: value for name, value in block.parameters.items() if name != "INSTANCE"}
-            return Block(block.keyword, parameters, block.data, block.file, block.line, block.raw)
+            return KeywordBlock(block.keyword, parameters, block.data, block.file, block.line, block.raw)
         return self._with_labels(block)
 
     def _names_of(self, instance: str) -> Iterable[str]:
@@ -262,7 +264,7 @@ class _Resolver:
             if value and value.startswith(start):
                 yield value[len(start) :]
 
-    def _with_labels(self, block: Block) -> Block:
+    def _with_labels(self, block: KeywordBlock) -> KeywordBlock:
         """Replace ``INSTANCE.7`` in data lines and parameters by the label that it is in the flat deck."""
         if block.keyword in ("NODE", "ELEMENT", "HEADING"):
             return block
@@ -293,10 +295,12 @@ class _Resolver:
             data = block.data.with_texts(texts)
         else:
             data = block.data
-        return Block(block.keyword, parameters, data, block.file, block.line, block.raw)
+        return KeywordBlock(block.keyword, parameters, data, block.file, block.line, block.raw)
 
 
-def _systems(blocks: Iterable[Block], motion: RigidMotion | None = None, first: int = 0) -> Iterable[Block]:
+def _systems(
+    blocks: Iterable[KeywordBlock], motion: RigidMotion | None = None, first: int = 0
+) -> Iterable[KeywordBlock]:
     """Apply ``*SYSTEM`` and the instance's motion to the nodes; everything else passes."""
     place = motion or still()
     local = still()
@@ -309,7 +313,7 @@ def _systems(blocks: Iterable[Block], motion: RigidMotion | None = None, first: 
             yield block
 
 
-def _names(blocks: Iterable[Block]) -> Iterable[str]:
+def _names(blocks: Iterable[KeywordBlock]) -> Iterable[str]:
     for block in blocks:
         parameter = DEFINES.get(block.keyword)
         value = block.parameters.get(parameter) if parameter else None
@@ -317,7 +321,7 @@ def _names(blocks: Iterable[Block]) -> Iterable[str]:
             yield value
 
 
-def _qualified(block: Block, scope: _Scope, motion: RigidMotion, define: bool = True) -> Block:
+def _qualified(block: KeywordBlock, scope: _Scope, motion: RigidMotion, define: bool = True) -> KeywordBlock:
     """Return a block of a part as one of the flat deck."""
     parameters = dict(block.parameters)
     own = DEFINES.get(block.keyword)
@@ -336,10 +340,10 @@ def _qualified(block: Block, scope: _Scope, motion: RigidMotion, define: bool = 
         data = _members(block, scope)
     elif block.keyword in FIRST_LABEL:
         data = block.data.with_texts([_first_named(line, scope) for line in block.data])
-    return Block(block.keyword, parameters, data, block.file, block.line, block.raw)
+    return KeywordBlock(block.keyword, parameters, data, block.file, block.line, block.raw)
 
 
-def _raised(block: Block, first: int) -> Lines:
+def _raised(block: KeywordBlock, first: int) -> Lines:
     """Return element lines with every label raised."""
     if not first or not len(block.data):
         return block.data
@@ -355,7 +359,7 @@ def _raised(block: Block, first: int) -> Lines:
     return block.data.with_texts(texts)
 
 
-def _members(block: Block, scope: _Scope) -> Lines:
+def _members(block: KeywordBlock, scope: _Scope) -> Lines:
     """Return the data of ``*NSET`` or ``*ELSET``; the increment of GENERATE is no label."""
     generated = "GENERATE" in block.parameters
     if not scope.first and not scope.names:
@@ -377,7 +381,7 @@ def _first_named(line: DataLine, scope: _Scope) -> str:
     return ", ".join(fields) + ("," if len(fields) == 1 else "")
 
 
-def _largest_label(blocks: Iterable[Block]) -> int:
+def _largest_label(blocks: Iterable[KeywordBlock]) -> int:
     """Return the largest node or element label that the blocks define."""
     largest = 0
     for block in blocks:

@@ -126,7 +126,7 @@ class Lines(Sequence[DataLine]):
 
 
 @dataclass(frozen=True)
-class Block:
+class KeywordBlock:
     """A keyword line with its parameters and its data lines.
 
     Attributes
@@ -192,10 +192,10 @@ class Deck:
     ----------
     path : Path
         The main file.
-    blocks : tuple of Block
+    blocks : tuple of KeywordBlock
         In the order of the text, without parameters, parts, instances, assemblies and coordinate systems: those are
         resolved (see `assembly`).
-    written : tuple of Block
+    written : tuple of KeywordBlock
         The blocks as they are written, parts and all.
     text : str
         The whole text, each ``*INCLUDE`` line followed by the text of its file.
@@ -208,14 +208,14 @@ class Deck:
     """
 
     path: Path
-    blocks: tuple[Block, ...]
+    blocks: tuple[KeywordBlock, ...]
     text: str
-    written: tuple[Block, ...] = ()
+    written: tuple[KeywordBlock, ...] = ()
     parameters: Mapping[str, float | int | str] = field(default_factory=dict)
     gaps: tuple[str, ...] = ()
     instances: tuple[tuple[int, str], ...] = ()
 
-    def named(self, *keywords: str) -> Iterator[Block]:
+    def named(self, *keywords: str) -> Iterator[KeywordBlock]:
         """Yield the blocks of the given keywords, in order."""
         return (block for block in self.blocks if block.keyword in keywords)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from .deck import Block, DataLine, Lines
+from .deck import DataLine, KeywordBlock, Lines
 from .table import number_table
 
 Floats = NDArray[np.float64]
@@ -47,7 +47,7 @@ def still() -> RigidMotion:
     return RigidMotion(np.eye(3), np.zeros(3))
 
 
-def instance_motion(block: Block) -> RigidMotion:
+def instance_motion(block: KeywordBlock) -> RigidMotion:
     """Return where ``*INSTANCE`` puts its part: first the translation, then the rotation about the axis from a to b.
 
     Data lines: ``tx, ty, tz`` and ``ax, ay, az, bx, by, bz, angle`` (degrees), both optional.
@@ -72,7 +72,7 @@ def instance_motion(block: Block) -> RigidMotion:
     return motion
 
 
-def system_motion(block: Block) -> RigidMotion:
+def system_motion(block: KeywordBlock) -> RigidMotion:
     """Return where ``*SYSTEM`` puts the nodes that follow.
 
     Data lines: ``ax, ay, az, bx, by, bz`` (origin, a point on the local x axis) and ``cx, cy, cz`` (a point in the
@@ -111,7 +111,7 @@ def rotation(axis: Floats, angle: float) -> Floats:
     return np.asarray(np.where(np.abs(turn - tidy) < 1e-15, tidy, turn) + 0.0, dtype=np.float64)
 
 
-def moved_nodes(block: Block, motion: RigidMotion, first_label: int) -> Block:
+def moved_nodes(block: KeywordBlock, motion: RigidMotion, first_label: int) -> KeywordBlock:
     """Return a ``*NODE`` block with its labels raised and its coordinates placed, Cartesian.
 
     Raises
@@ -128,10 +128,10 @@ def moved_nodes(block: Block, motion: RigidMotion, first_label: int) -> Block:
     labels = table[:, 0].astype(np.int64) + first_label
     texts = [f"{node}, {x!r}, {y!r}, {z!r}" for node, (x, y, z) in zip(labels.tolist(), placed.tolist(), strict=True)]
     parameters = {name: value for name, value in block.parameters.items() if name not in ("SYSTEM", "INPUT")}
-    return Block("NODE", parameters, block.data.with_texts(texts), block.file, block.line, block.raw)
+    return KeywordBlock("NODE", parameters, block.data.with_texts(texts), block.file, block.line, block.raw)
 
 
-def moved_profile(block: Block, motion: RigidMotion) -> Block:
+def moved_profile(block: KeywordBlock, motion: RigidMotion) -> KeywordBlock:
     """Return an analytical ``*SURFACE`` with the points that fix its axes placed.
 
     Without such points the local x and y are those of the part, swept along its negative z.
@@ -156,7 +156,7 @@ def moved_profile(block: Block, motion: RigidMotion) -> Block:
     lines = [DataLine(block.file, block.line, ", ".join(map(repr, [*a, *b]))),
              DataLine(block.file, block.line, ", ".join(map(repr, c))), *block.data[start:]]  # fmt: skip
     data = Lines([one.file for one in lines], [one.number for one in lines], [one.text for one in lines])
-    return Block("SURFACE", block.parameters, data, block.file, block.line, block.raw)
+    return KeywordBlock("SURFACE", block.parameters, data, block.file, block.line, block.raw)
 
 
 def _cartesian(coordinates: Floats, system: str) -> Floats:

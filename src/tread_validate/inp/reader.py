@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from .assembly import resolve
-from .deck import Block, Deck, Lines, label, split_commas
+from .deck import Deck, KeywordBlock, Lines, label, split_commas
 from .parameters import Value, assign, substitute
 from .source import MOST_BYTES, read_lines
 from .vocabulary import keyword_name, parameter_name, value_name
@@ -99,13 +99,13 @@ class _Open:
         self.numbers = joined
         self.texts += texts
 
-    def closed(self) -> Block:
+    def closed(self) -> KeywordBlock:
         """Return the finished block; a factor of 1 on an amplitude is left out, as the same deck without it reads."""
         for name in ("SCALEX", "SCALEY"):
             if self.keyword == "AMPLITUDE" and self.parameters.get(name) in ("1", "1.", "1.0"):
                 del self.parameters[name]
         data = Lines(self.files or self.file, self.numbers, self.texts)
-        return Block(self.keyword, self.parameters, data, self.file, self.line, self.raw)
+        return KeywordBlock(self.keyword, self.parameters, data, self.file, self.line, self.raw)
 
 
 class _Reader:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from .deck import LARGEST_LABEL, Block, DataLine, label
+from .deck import LARGEST_LABEL, DataLine, KeywordBlock, label
 from .reader import Report, stop
 from .table import integer_rows
 
@@ -80,14 +80,14 @@ class Sets:
         at = int(np.searchsorted(known, number))
         return self._open or (at < known.size and int(known[at]) == number)
 
-    def read(self, blocks: Iterable[Block]) -> Sets:
+    def read(self, blocks: Iterable[KeywordBlock]) -> Sets:
         """Take in every ``*NSET`` and ``*ELSET``, in order."""
         for block in blocks:
             if block.keyword in ("NSET", "ELSET"):
                 self._add(block)
         return self
 
-    def _add(self, block: Block) -> None:
+    def _add(self, block: KeywordBlock) -> None:
         what = "node" if block.keyword == "NSET" else "element"
         parts: list[Ints] = []
         if "GENERATE" in block.parameters:
@@ -103,7 +103,7 @@ class Sets:
             parts.append(self._of_elements(block, source))
         self.extend(what, block.parameters.get(block.keyword), np.concatenate(parts) if parts else NONE)
 
-    def _plain(self, block: Block, what: str) -> Ints | None:
+    def _plain(self, block: KeywordBlock, what: str) -> Ints | None:
         """Return lines of nothing but known labels at once; None where there is more to it."""
         texts = [text.rstrip().rstrip(",") for text in block.data.texts]
         if len(texts) < 8:
@@ -150,7 +150,7 @@ class Sets:
             self._report("generate-missing", where, f"no {what} {missing}", f"every {what} from {first} to {last}")
         return found
 
-    def _of_elements(self, block: Block, source: str) -> Ints:
+    def _of_elements(self, block: KeywordBlock, source: str) -> Ints:
         members = self.elements.get(source)
         if members is None or self._nodes_of_elements is None:
             if not self._open:

@@ -20,7 +20,7 @@ EMPTY = ("", "nan", "na", "-", "--", "---", "novalue", "n/a")
 
 
 @dataclass(frozen=True)
-class Block:
+class CellBlock:
     """One table of an export.
 
     Attributes
@@ -66,13 +66,13 @@ class Block:
         return value
 
 
-def read_blocks(path: Path | str) -> tuple[list[Block], str]:
+def read_blocks(path: Path | str) -> tuple[list[CellBlock], str]:
     """Return every table of a text file or workbook (.xlsx), in order, and how the file was read, in words.
 
     Raises `InputError` where no table is found, or a row has another number of cells than its heading.
     """
     if Path(path).suffix.lower() in (".xlsx", ".xlsm"):
-        blocks: list[Block] = []
+        blocks: list[CellBlock] = []
         for name, rows in read_sheets(path):
             blocks += _blocks(f"{path}[{name}]", rows, ".", exact=False)
         told = "workbook"
@@ -118,8 +118,8 @@ def _numeric(cell: str) -> bool:
     return bool(POINT.fullmatch(cell) or COMMA.fullmatch(cell))
 
 
-def _blocks(where: str, rows: list[list[str]], decimal: str, exact: bool) -> list[Block]:
-    blocks: list[Block] = []
+def _blocks(where: str, rows: list[list[str]], decimal: str, exact: bool) -> list[CellBlock]:
+    blocks: list[CellBlock] = []
     above: list[list[str]] = []
     k = 0
     while k < len(rows):
@@ -153,9 +153,9 @@ def _block(
     rows: list[list[str]],
     first: int,
     decimal: str,
-    before: Block | None,
+    before: CellBlock | None,
     exact: bool,
-) -> Block:
+) -> CellBlock:
     lines = list(range(first + 1, first + len(rows) + 1))
     heading, units = _heading(above, len(rows[0]))
     if not heading and before is not None and len(before.names) == len(rows[0]):
@@ -171,7 +171,7 @@ def _block(
             hint = " (decimal commas in a comma-separated file?)" if len(row) > len(heading) else ""
             raise InputError(f"{where}:{number}", f"{len(row)} cells", f"{len(heading)}, as in the heading{hint}")
     told = [" ".join(cell for cell in row if cell) for row in above if row]
-    return Block(where, heading, units, rows, lines, told, decimal)
+    return CellBlock(where, heading, units, rows, lines, told, decimal)
 
 
 def _heading(above: list[list[str]], width: int) -> tuple[list[str], list[str]]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..errors import InputError, one_line
-from .cells import Block
+from .cells import CellBlock
 from .quantities import SHEAR, Quantity, Unit, bare_name, choices
 
 BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(]\s*(?P<unit>[^\[\]()]*)\s*[\])]\s*$")
@@ -55,7 +55,7 @@ def split_heading(heading: str, units: Mapping[str, Unit]) -> tuple[str, str]:
     return heading, ""
 
 
-def recognise(block: Block, quantities: tuple[Quantity, ...], reading: Reading) -> dict[str, Recognised]:
+def recognise(block: CellBlock, quantities: tuple[Quantity, ...], reading: Reading) -> dict[str, Recognised]:
     """Return the column of each quantity that the block has, by key.
 
     Raises `InputError` where two columns could be one quantity, the user's column is not there, or a unit is not said.
@@ -79,7 +79,7 @@ def recognise(block: Block, quantities: tuple[Quantity, ...], reading: Reading) 
     return found
 
 
-def _candidates(block: Block, quantity: Quantity, reading: Reading) -> list[tuple[int, str]]:
+def _candidates(block: CellBlock, quantity: Quantity, reading: Reading) -> list[tuple[int, str]]:
     """Return columns that may be the quantity, each with the unit that its heading says."""
     chosen = reading.columns.get(quantity.key)
     if chosen is not None:
@@ -93,7 +93,7 @@ def _candidates(block: Block, quantity: Quantity, reading: Reading) -> list[tupl
     return found
 
 
-def _chosen(block: Block, quantity: Quantity, chosen: str) -> int:
+def _chosen(block: CellBlock, quantity: Quantity, chosen: str) -> int:
     if chosen.isdigit() and 1 <= int(chosen) <= len(block.names):
         return int(chosen) - 1
     places = [k for k, name in enumerate(block.names) if name.strip() == chosen.strip()]
@@ -105,12 +105,12 @@ def _chosen(block: Block, quantity: Quantity, chosen: str) -> int:
     return places[0]
 
 
-def _with_data(block: Block, candidates: list[tuple[int, str]]) -> list[tuple[int, str]]:
+def _with_data(block: CellBlock, candidates: list[tuple[int, str]]) -> list[tuple[int, str]]:
     """Return the candidates that hold anything; a column that is empty throughout is no choice."""
     return [(k, unit) for k, unit in candidates if any(row[k].strip() for row in block.cells)]
 
 
-def _resolved(block: Block, quantity: Quantity, column: int, unit: str, reading: Reading) -> Recognised:
+def _resolved(block: CellBlock, quantity: Quantity, column: int, unit: str, reading: Reading) -> Recognised:
     said = reading.units.get(quantity.option, "") if quantity.option else ""
     name = said or unit
     if name.strip().lower() not in quantity.units:
@@ -128,7 +128,7 @@ def _resolved(block: Block, quantity: Quantity, column: int, unit: str, reading:
     return Recognised(column, block.names[column], name, quantity.units[name.strip().lower()])
 
 
-def _refuse_shear(block: Block) -> None:
+def _refuse_shear(block: CellBlock) -> None:
     for k, name in enumerate(block.names):
         if bare_name(split_heading(name, {"pa": Unit(1), "kpa": Unit(1), "mpa": Unit(1), "gpa": Unit(1)})[0]) in SHEAR:
             raise InputError(
@@ -138,5 +138,5 @@ def _refuse_shear(block: Block) -> None:
             )
 
 
-def _head_line(block: Block) -> int:
+def _head_line(block: CellBlock) -> int:
     return max(block.line[0] - (2 if any(block.units) else 1), 1)

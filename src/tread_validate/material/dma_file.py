@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..instrument import Block, Reading, Recognised, read_blocks, recognise
+from ..instrument import CellBlock, Reading, Recognised, read_blocks, recognise
 from ..instrument.metadata import temperature_above
 from ..instrument.quantities import DMA
 
@@ -71,7 +71,7 @@ def read_dma(path: Path | str, reading: Reading | None = None) -> tuple[tuple[Dm
     return tuple(tables), tuple(notes)
 
 
-def _complete(block: Block, columns: dict[str, Recognised]) -> None:
+def _complete(block: CellBlock, columns: dict[str, Recognised]) -> None:
     """Raise `InputError` where the columns do not give frequency, E' and E''."""
     names = ", ".join(f"{k + 1} '{name}'" for k, name in enumerate(block.names))
     place = f"{block.where}:{max(block.line[0] - 1, 1)}"
@@ -84,7 +84,7 @@ def _complete(block: Block, columns: dict[str, Recognised]) -> None:
         raise InputError(place, f"columns {names}", expected)
 
 
-def _table(block: Block, columns: dict[str, Recognised]) -> DmaTable:
+def _table(block: CellBlock, columns: dict[str, Recognised]) -> DmaTable:
     values, kept = _numbers(block, columns)
     rows = len(kept)
     storage, loss = _moduli(values)
@@ -105,7 +105,7 @@ def _table(block: Block, columns: dict[str, Recognised]) -> DmaTable:
     )
 
 
-def _numbers(block: Block, columns: dict[str, Recognised]) -> tuple[dict[str, Array], list[int]]:
+def _numbers(block: CellBlock, columns: dict[str, Recognised]) -> tuple[dict[str, Array], list[int]]:
     """Return the columns in SI without rows in which none of them has a number."""
     cells = {key: [block.number(row, one.column) for row in range(len(block.cells))] for key, one in columns.items()}
     kept = [row for row in range(len(block.cells)) if any(values[row] is not None for values in cells.values())]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ...inp import Block, DataLine, Deck
+from ...inp import DataLine, Deck, KeywordBlock
 from .findings import Findings
 from .names import Names
 from .syntax import is_number, number
@@ -38,7 +38,7 @@ def check_contact(deck: Deck, names: Names, findings: Findings) -> None:
     _check_output(deck, names, findings)
 
 
-def _check_element_surface(block: Block, names: Names, findings: Findings) -> None:
+def _check_element_surface(block: KeywordBlock, names: Names, findings: Findings) -> None:
     for line in block.data:
         target = line.fields[0] if line.fields else ""
         label = (line.fields[1] if len(line.fields) > 1 else "").upper()
@@ -53,7 +53,7 @@ def _check_element_surface(block: Block, names: Names, findings: Findings) -> No
             findings.add(line, "surface-face", f"*SURFACE: face {label}: expected S1 to S{most}")
 
 
-def _check_profile(block: Block, kind: str, findings: Findings) -> None:
+def _check_profile(block: KeywordBlock, kind: str, findings: Findings) -> None:
     """Check START, LINE, CIRCL of an analytical surface; the leading lines only fix the axes."""
     lines = list(block.data)
     words = [line.fields[0].upper() if line.fields else "" for line in lines]
@@ -118,7 +118,7 @@ def _numbers(line: DataLine, first: int, count: int) -> list[float] | None:
     return [number(text) for text in fields]
 
 
-def _check_pair(block: Block, names: Names, analytical: set[str], findings: Findings) -> None:
+def _check_pair(block: KeywordBlock, names: Names, analytical: set[str], findings: Findings) -> None:
     interaction = block.parameters.get("INTERACTION")
     if interaction and not names.has("SURFACE INTERACTION", interaction):
         findings.add(block, "dangling-interaction", f"*CONTACT PAIR: there is no *SURFACE INTERACTION {interaction}")
@@ -142,7 +142,7 @@ def _check_place_of_pairs(deck: Deck, findings: Findings) -> None:
 
 
 def _check_friction(deck: Deck, names: Names, findings: Findings) -> None:
-    owner: Block | None = None
+    owner: KeywordBlock | None = None
     general = next(deck.named("CONTACT"), None)
     assigned = {
         line.fields[-1].upper()
@@ -190,7 +190,7 @@ def _check_friction(deck: Deck, names: Names, findings: Findings) -> None:
                 findings.add(block.data[0], "friction-value", f"friction coefficient {value:g}: expected >= 0")
 
 
-def _check_user_friction(deck: Deck, position: int, block: Block, name: str, findings: Findings) -> None:
+def _check_user_friction(deck: Deck, position: int, block: KeywordBlock, name: str, findings: Findings) -> None:
     clashing = {"ROUGH", "LAGRANGE", "ELASTIC SLIP", "SLIP TOLERANCE", "SHEAR TRACTION SLOPE", "TAUMAX", "ANISOTROPIC"}
     for parameter in sorted(clashing & set(block.parameters)):
         findings.add(
@@ -218,7 +218,7 @@ def _check_user_friction(deck: Deck, position: int, block: Block, name: str, fin
             )
 
 
-def _siblings(deck: Deck, position: int, direction: int) -> list[Block]:
+def _siblings(deck: Deck, position: int, direction: int) -> list[KeywordBlock]:
     """Return the option blocks beside one, up to the next keyword that is no option."""
     found = []
     position += direction

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from ...inp import Block, DataLine
+from ...inp import DataLine, KeywordBlock
 
 Severity = Literal["error", "warning"]
 
@@ -42,7 +42,7 @@ class Finding:
 class Findings(list[Finding]):
     """A list of findings with a short way to add one."""
 
-    def add(self, at: Block | DataLine, rule: str, message: str, severity: Severity = "error") -> None:
+    def add(self, at: KeywordBlock | DataLine, rule: str, message: str, severity: Severity = "error") -> None:
         """Add a finding at a keyword or a data line."""
-        line = at.line if isinstance(at, Block) else at.number
+        line = at.line if isinstance(at, KeywordBlock) else at.number
         self.append(Finding(at.file, line, rule, message, severity))

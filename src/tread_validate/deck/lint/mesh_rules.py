@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...inp import Block, Deck
+from ...inp import Deck, KeywordBlock
 from .findings import Findings
 from .names import Names
 from .syntax import is_number, number
@@ -72,7 +72,7 @@ def _least_jacobian(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _check_sections(deck: Deck, names: Names, findings: Findings) -> None:
-    owner: dict[int, Block] = {}
+    owner: dict[int, KeywordBlock] = {}
     for block in deck.blocks:
         if block.keyword not in SECTION_KEYWORDS:
             continue
@@ -106,7 +106,7 @@ def _check_sections(deck: Deck, names: Names, findings: Findings) -> None:
             findings.add(part.lines[bare[0]], "no-section", f"element {part.ids[bare[0]]} has no section{more}")
 
 
-def _check_material(deck: Deck, names: Names, name: str, block: Block, findings: Findings) -> None:
+def _check_material(deck: Deck, names: Names, name: str, block: KeywordBlock, findings: Findings) -> None:
     options = _options(deck, block)
     if names.explicit and "DENSITY" not in options:
         findings.add(block, "no-density", f"material {name} has no *DENSITY, which *DYNAMIC, EXPLICIT needs")
@@ -130,9 +130,9 @@ def _check_material(deck: Deck, names: Names, name: str, block: Block, findings:
             findings.add(options["TRS"], "no-temperature", "*TRS without *INITIAL CONDITIONS, TYPE=TEMPERATURE")
 
 
-def _options(deck: Deck, material: Block) -> dict[str, Block]:
+def _options(deck: Deck, material: KeywordBlock) -> dict[str, KeywordBlock]:
     """Return the options of a material, by keyword."""
-    found: dict[str, Block] = {}
+    found: dict[str, KeywordBlock] = {}
     start = deck.blocks.index(material)
     for block in deck.blocks[start + 1 :]:
         known = KEYWORDS.get(block.keyword)
@@ -142,7 +142,7 @@ def _options(deck: Deck, material: Block) -> dict[str, Block]:
     return found
 
 
-def _check_prony(block: Block, findings: Findings) -> None:
+def _check_prony(block: KeywordBlock, findings: Findings) -> None:
     if block.parameters.get("TIME") != "PRONY":
         return
     shear = bulk = 0.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from ...inp import Block, DataLine, Deck
+from ...inp import DataLine, Deck, KeywordBlock
 from .findings import Findings
 from .names import Names
 from .syntax import is_number, number
@@ -39,7 +39,7 @@ def check_motion(deck: Deck, names: Names, findings: Findings) -> None:
     _check_steps(deck, findings)
 
 
-def _amplitude(block: Block, findings: Findings) -> Pairs:
+def _amplitude(block: KeywordBlock, findings: Findings) -> Pairs:
     """Return the (time, value) pairs of an amplitude and report what is wrong with them."""
     definition = block.parameters.get("DEFINITION") or "TABULAR"
     if definition not in ("TABULAR", "SMOOTH STEP"):
@@ -61,7 +61,7 @@ def _amplitude(block: Block, findings: Findings) -> Pairs:
 
 
 def _check_boundary(
-    block: Block, inside: bool, names: Names, amplitudes: dict[str, Pairs], smooth: set[str], findings: Findings
+    block: KeywordBlock, inside: bool, names: Names, amplitudes: dict[str, Pairs], smooth: set[str], findings: Findings
 ) -> None:
     kind = block.parameters.get("TYPE") or "DISPLACEMENT"
     for line in block.data:
@@ -116,7 +116,7 @@ def _known_nodes(line: DataLine, text: str, names: Names, findings: Findings) ->
         findings.add(line, "dangling-nset", f"there is no node or node set {text or '(blank)'}")
 
 
-def _check_load(block: Block, names: Names, findings: Findings) -> None:
+def _check_load(block: KeywordBlock, names: Names, findings: Findings) -> None:
     for line in block.data:
         target = line.fields[0]
         if block.keyword in ("CLOAD", "TEMPERATURE"):
@@ -128,7 +128,7 @@ def _check_load(block: Block, names: Names, findings: Findings) -> None:
             findings.add(line, "dangling-surface", f"*DSLOAD: there is no *SURFACE {target}")
 
 
-def _check_initial(block: Block, names: Names, findings: Findings) -> None:
+def _check_initial(block: KeywordBlock, names: Names, findings: Findings) -> None:
     kind = block.parameters.get("TYPE")
     if kind not in ("TEMPERATURE", "VELOCITY"):
         return
@@ -142,7 +142,7 @@ def _check_initial(block: Block, names: Names, findings: Findings) -> None:
 
 
 def _check_rigid_bodies(deck: Deck, names: Names, findings: Findings) -> None:
-    body_of: dict[int, Block] = {}
+    body_of: dict[int, KeywordBlock] = {}
     fixed = _prescribed(deck, names)
     massive = _massive_nodes(deck, names)
     for block in deck.named("RIGID BODY"):
@@ -225,8 +225,8 @@ def _massive_nodes(deck: Deck, names: Names) -> set[int]:
 
 def _check_steps(deck: Deck, findings: Findings) -> None:
     procedures = ("DYNAMIC", "STATIC", "FREQUENCY", "VISCO")
-    step: Block | None = None
-    found: Block | None = None
+    step: KeywordBlock | None = None
+    found: KeywordBlock | None = None
     for block in deck.blocks:
         if block.keyword == "STEP":
             step, found = block, None

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...inp import Block, DataLine, Deck
+from ...inp import DataLine, Deck, KeywordBlock
 from .findings import Findings
 from .syntax import is_number, number
 from .table import ELEMENT_NODES
@@ -23,7 +23,7 @@ NO_IDS: IntArray = np.zeros(0, dtype=np.int64)
 class ElementBlock:
     """The elements of one ``*ELEMENT``: ids (m,), node ids (m, k), and the line of each."""
 
-    block: Block
+    block: KeywordBlock
     kind: str
     ids: IntArray
     nodes: IntArray
@@ -41,7 +41,7 @@ class Names:
     element_set: frozenset[int] = frozenset()
     nsets: dict[str, IntArray] = field(default_factory=dict)
     elsets: dict[str, IntArray] = field(default_factory=dict)
-    named: dict[str, dict[str, Block]] = field(default_factory=dict)
+    named: dict[str, dict[str, KeywordBlock]] = field(default_factory=dict)
     explicit: bool = False
 
     def has(self, kind: str, name: str) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Sequence
 
-from ...inp import Block, DataLine, Deck
+from ...inp import DataLine, Deck, KeywordBlock
 from .findings import Findings
 from .table import KEYWORDS, Keyword
 
@@ -14,7 +14,7 @@ def check_syntax(deck: Deck, findings: Findings) -> None:
     """Check every keyword block by itself and its place in the deck."""
     inside = False
     steps = 0
-    opened: Block | None = None
+    opened: KeywordBlock | None = None
     for position, block in enumerate(deck.blocks):
         if block.keyword == "STEP":
             if inside:
@@ -39,7 +39,7 @@ def check_syntax(deck: Deck, findings: Findings) -> None:
 
 
 def _check_block(
-    blocks: Sequence[Block], position: int, known: Keyword, inside: bool, steps: int, findings: Findings
+    blocks: Sequence[KeywordBlock], position: int, known: Keyword, inside: bool, steps: int, findings: Findings
 ) -> None:
     block = blocks[position]
     if known.place == "model" and (inside or steps):
@@ -53,7 +53,7 @@ def _check_block(
         findings.add(block, "wrong-place", f"*{block.keyword} belongs below *{' or *'.join(known.parents)}")
 
 
-def _check_parameters(block: Block, known: Keyword, findings: Findings) -> None:
+def _check_parameters(block: KeywordBlock, known: Keyword, findings: Findings) -> None:
     allowed = known.required | known.optional
     for name, value in block.parameters.items():
         if name not in allowed:
@@ -67,7 +67,7 @@ def _check_parameters(block: Block, known: Keyword, findings: Findings) -> None:
         findings.add(block, "missing-parameter", f"*{block.keyword} needs {name}=")
 
 
-def _check_data(block: Block, known: Keyword, findings: Findings) -> None:
+def _check_data(block: KeywordBlock, known: Keyword, findings: Findings) -> None:
     least, most = known.lines
     if len(block.data) < least and "INPUT" not in block.parameters:
         findings.add(block, "data-lines", f"*{block.keyword}: {len(block.data)} data lines, expected at least {least}")
@@ -86,7 +86,7 @@ def _check_data(block: Block, known: Keyword, findings: Findings) -> None:
             _check_numbers(block, line, findings)
 
 
-def _check_numbers(block: Block, line: DataLine, findings: Findings) -> None:
+def _check_numbers(block: KeywordBlock, line: DataLine, findings: Findings) -> None:
     for text in line.fields:
         if text and not is_number(text):
             findings.add(line, "not-a-number", f"*{block.keyword}: {text[:40]} is not a number")
@@ -107,7 +107,7 @@ def number(text: str) -> float:
     return float(text.upper().replace("D", "E"))
 
 
-def _has_parent(blocks: Sequence[Block], position: int, parents: tuple[str, ...]) -> bool:
+def _has_parent(blocks: Sequence[KeywordBlock], position: int, parents: tuple[str, ...]) -> bool:
     """Whether one of `parents` precedes with nothing but options in between."""
     for block in reversed(blocks[:position]):
         if block.keyword in parents:
