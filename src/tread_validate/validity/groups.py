@@ -1,0 +1,90 @@
+"""The dimensionless groups that decide how a block rolls, and with it how far a model of it may be believed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import astuple, dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry import path_of
+from ..spring.rubber import law_of, series_of
+from ..study import Case
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Groups:
+    """Groups of one case, dimensionless.
+
+    Attributes
+    ----------
+    interference : D/h
+    length, width : l/h, w/h
+    radius : R/l
+        Radius of the path relative to the road where the block first touches, over the block's length.
+    friction : mu_s
+    grip : mu_s G/p
+        Friction over the shear stiffness, p = E D/h; follows from D/h, mu_s and nu.
+    relaxation : V tau/l
+        tau the mean relaxation time, weighted in its logarithm by the moduli.
+    creep : creep strain over the sticking limit
+        Creep ratio times the length of contact of a column, over h mu_s p/G: beyond 1 a block slides.
+    speed : V/c_s
+        c_s = sqrt(G_0/rho), the wave speed of shear.
+    poisson : nu
+    """
+
+    interference: float
+    length: float
+    width: float
+    radius: float
+    friction: float
+    grip: float
+    relaxation: float
+    creep: float
+    speed: float
+    poisson: float
+
+
+LINEAR = ("friction", "creep", "poisson")
+"""Groups that are compared as they are; the others by their logarithm."""
+NAMES = tuple(field.name for field in fields(Groups))
+
+
+def groups_of(case: Case) -> Groups:
+    """Return the groups of a case whose creep ratio is known."""
+    assert case.creep_ratio is not None
+    path, series = path_of(case), series_of(case)
+    height = case.height
+    length, width = case.block.length_mm * 1e-3, case.block.width_mm * 1e-3
+    nu, friction = case.compound.poissons_ratio, law_of(case).static_coefficient
+    bend = abs(float(path.line.curvature(path.first_touch_arc)))
+    bend += 0.0 if path.road.is_plane else 1.0 / path.road.radius
+    column = max(path.contact_duration - path.columns.extent / path.speed, 0.0)
+    strain = case.interference / height
+    total = float(series.moduli.sum())
+    mean_time = math.exp(float(series.moduli @ np.log(series.relaxation_times)) / total) if total > 0.0 else 0.0
+    shear = series.instantaneous_modulus / (2.0 * (1.0 + nu))
+    grip = friction / (2.0 * (1.0 + nu) * strain)
+    sheared = case.creep_ratio * path.speed * column / height
+    return Groups(
+        interference=strain,
+        length=length / height,
+        width=width / height,
+        radius=1.0 / (max(bend, 1e-6) * length),
+        friction=friction,
+        grip=grip,
+        relaxation=path.speed * mean_time / length,
+        creep=sheared / max(2.0 * (1.0 + nu) * friction * strain, 1e-9),
+        speed=path.speed / math.sqrt(shear / case.compound.density_kg_m3),
+        poisson=nu,
+    )
+
+
+def coordinates(groups: Groups) -> Array:
+    """Return the groups as numbers to measure distances with, (10,)."""
+    values = zip(NAMES, astuple(groups), strict=True)
+    return np.array([value if name in LINEAR else math.log(max(value, 1e-12)) for name, value in values])
