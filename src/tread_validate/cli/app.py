@@ -41,6 +41,7 @@ VERBS = {
     "check": "check",
     "accept": "accept",
     "ladder": "ladder",
+    "map": "map",
     "fit-prony": "fit_prony",
     "fit-friction": "fit_friction",
     "import-belt": "import_belt",

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..friction import Coulomb
-from ..geometry import Block
+from ..geometry import Block, PathEntry
 from ..geometry.paths.rig import Rig
 from ..geometry.paths.simplified_belt import SimplifiedBelt
 from ..study import Case
@@ -20,11 +20,13 @@ RANGES = {
     "interference": (0.003, 0.08), "length": (1.25, 4.0), "width": (1.25, 3.0), "radius": (2.5, 30.0),
     "friction": (0.15, 1.2), "temperature": (-5.0, 60.0), "creep": (-1.5, 1.5), "speed_m_s": (1.0, 25.0),
     "poisson": (0.3, 0.495), "kind": (0.0, 1.0), "mounting": (0.0, 1.0),
+    "shape": (0.0, 1.0), "skew_deg": (10.0, 35.0),
 }  # fmt: skip
 """Between which values each direction of the sequence runs; those above 0 at both ends but for temperature, friction,
 creep and Poisson's ratio in their logarithm."""
 LOGARITHMIC = ("interference", "length", "width", "radius", "speed_m_s")
-RIG_SHARE = 0.35
+RIG_SHARE, SKEW_SHARE = 0.35, 0.2
+"""Shares of the points on the rig, and of the parallelograms."""
 
 
 def design(base: Case, count: int, begin: int = 0) -> list[Case]:
@@ -51,11 +53,14 @@ def _case(base: Case, number: int, unit: dict[str, float]) -> Case:
     assumed = {"origin": "assumed", "source": "a point of the validity map"}
     # a flat block on a wheel stands on its middle or its ends: nearly all of the rig is conforming
     flat = at["mounting"] < (0.15 if rig else 0.8)
+    skewed = at["shape"] < SKEW_SHARE
     block = Block(
-        **assumed, shape="rectangle", length_mm=length, width_mm=width, height_mm=HEIGHT_MM,
-        mounting="flat" if flat else "conforming",
+        **assumed, shape="parallelogram" if skewed else "rectangle", skew_deg=at["skew_deg"] if skewed else 0.0,
+        length_mm=length, width_mm=width,
+        height_mm=HEIGHT_MM, mounting="flat" if flat else "conforming",
     )  # fmt: skip
     radius = max(at["radius"] * length, 2.5 * HEIGHT_MM)
+    path: PathEntry
     if rig:  # two wheels, the big one three times as large: 1/R1 + 1/(3 R1) = 1/R
         wheel = max(4.0 / 3.0 * radius, 6.0 * HEIGHT_MM)
         path = Rig(**assumed, kind="rig", small_wheel_diameter_mm=2.0 * wheel, big_wheel_diameter_mm=6.0 * wheel)

@@ -35,6 +35,8 @@ class Groups:
     speed : V/c_s
         c_s = sqrt(G_0/rho), the wave speed of shear.
     poisson : nu
+    skew : rad
+        Angle of a parallelogram's edges, its size.
     """
 
     interference: float
@@ -47,9 +49,10 @@ class Groups:
     creep: float
     speed: float
     poisson: float
+    skew: float
 
 
-LINEAR = ("friction", "creep", "poisson")
+LINEAR = ("friction", "creep", "poisson", "skew")
 """Groups that are compared as they are; the others by their logarithm."""
 NAMES = tuple(field.name for field in fields(Groups))
 
@@ -81,10 +84,11 @@ def groups_of(case: Case) -> Groups:
         creep=sheared / max(2.0 * (1.0 + nu) * friction * strain, 1e-9),
         speed=path.speed / math.sqrt(shear / case.compound.density_kg_m3),
         poisson=nu,
+        skew=abs(math.radians(case.block.skew_deg)),
     )
 
 
 def coordinates(groups: Groups) -> Array:
-    """Return the groups as numbers to measure distances with, (10,)."""
+    """Return the groups as numbers to measure distances with, (11,)."""
     values = zip(NAMES, astuple(groups), strict=True)
     return np.array([value if name in LINEAR else math.log(max(value, 1e-12)) for name, value in values])

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import EngineError, InputError
 from ..files import read_text, write_text
-from ..source_code import code_digest
+from ..source_code import code_digest, digest_of
 from ..spring import run
 from ..spring.variants import code_digest as model_digest
 from ..study import Case
@@ -86,10 +86,10 @@ def model_point(case: Case, models: Sequence[str] = MODELS) -> dict[str, dict[st
 def run_points(cases: Sequence[Case], folder: Path, say: Say, more: Callable[[], bool]) -> list[Mapping[str, Any]]:
     """Return the points that are done, running those that are missing or stale while `more()` holds.
 
-    Each point is one file, ``folder/<case_id>.json``, written when it is whole: a study that is stopped goes on where it was.
-    A point that the engine or a model refuses says why and counts as run.
+    Each point is one file, ``folder/<case_id>.json``, written when it is whole: a study that is stopped goes on where
+    it was. A point that the engine or a model refuses says why and counts as run.
     """
-    fe, models = code_digest("fe"), {model: model_digest(model) for model in MODELS}
+    fe, models = f"{code_digest('fe')} {digest_of(('deck.model',))}", {model: model_digest(model) for model in MODELS}
     points: list[Mapping[str, Any]] = []
     for case in cases:
         path = folder / f"{case.case_id}.json"

@@ -1,0 +1,108 @@
+"""The committed table of the map: one row a point, its groups and every model's errors."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..files import read_text
+from .groups import NAMES, Groups
+
+TABLE = Path(__file__).resolve().parent / "map.csv"
+ERRORS = ("normal", "impulse", "tangential")
+"""Peak N and impulse over FE's, peaks of T over the larger one of FE's."""
+KINDS = ("belt, flat", "belt, conforming", "rig, conforming", "rig, flat")
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of the map.
+
+    Attributes
+    ----------
+    reference : mapping of str to float
+        How far the finer FE mesh is from the limit of both, relative, for each of `ERRORS`.
+    errors : mapping of str to mapping
+        Error of each model against that limit, signed for N and impulse.
+    """
+
+    case_id: str
+    kind: str
+    groups: Groups
+    reference: Mapping[str, float]
+    errors: Mapping[str, Mapping[str, float]]
+
+
+def point_of(data: Mapping[str, Any], finest: str) -> Point | None:
+    """Return the point of a run's data, None for one that was refused; `finest` names the finer mesh's forces."""
+    if "refused" in data or "models" not in data:
+        return None
+    limit = data["limit"]
+    errors = {model: relative(forces, limit) for model, forces in data["models"].items()}
+    return Point(data["case_id"], data["kind"], Groups(**data["groups"]), relative(data[finest], limit), errors)
+
+
+def relative(forces: Mapping[str, float], limit: Mapping[str, float]) -> dict[str, float]:
+    """Return the errors of forces against FE's."""
+    largest = max(abs(limit["positive"]), abs(limit["negative"]), 0.02 * limit["normal"])
+    tangential = max(abs(forces[name] - limit[name]) for name in ("positive", "negative"))
+    return {
+        "normal": forces["normal"] / limit["normal"] - 1.0,
+        "impulse": forces["impulse"] / limit["impulse"] - 1.0,
+        "tangential": tangential / largest,
+    }
+
+
+def table_text(points: Iterable[Point]) -> str:
+    """Return the table as CSV."""
+    points = list(points)
+    models = list(points[0].errors)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([
+        "case_id", "kind", *NAMES, *(f"reference_{each}" for each in ERRORS),
+        *(f"{model}_{each}" for model in models for each in ERRORS),
+    ])  # fmt: skip
+    for point in points:
+        groups = [f"{getattr(point.groups, name):.5g}" for name in NAMES]
+        numbers = [point.reference[each] for each in ERRORS]
+        numbers += [point.errors[model][each] for model in models for each in ERRORS]
+        writer.writerow([point.case_id, point.kind, *groups, *(f"{number:.4f}" for number in numbers)])
+    return text.getvalue()
+
+
+def read_table(text: str) -> tuple[Point, ...]:
+    """Read a table back; raises `InputError` for one of another shape."""
+    rows = list(csv.DictReader(io.StringIO(text)))
+    if not rows or not {"case_id", "kind", *NAMES} <= set(rows[0]):
+        raise InputError("map", "a table without groups", f"columns case_id, kind, {', '.join(NAMES)}, errors")
+    heads = [name.removesuffix("_normal") for name in rows[0] if name.endswith("_normal")]
+    models = [head for head in heads if head != "reference"]
+    try:
+        return tuple(
+            Point(
+                row["case_id"],
+                row["kind"],
+                Groups(**{name: float(row[name]) for name in NAMES}),
+                {each: float(row[f"reference_{each}"]) for each in ERRORS},
+                {
+                    head: {each: float(row[f"{head}_{each}"]) for each in ERRORS}
+                    for head in models
+                },
+            )
+            for row in rows
+        )
+    except (KeyError, ValueError, TypeError) as error:
+        raise InputError("map", error, "a number in each column") from error
+
+
+@cache
+def committed() -> tuple[Point, ...]:
+    """Return the points that the package brings along; none where the table is not there."""
+    return read_table(read_text(TABLE)) if TABLE.is_file() else ()
