@@ -3,12 +3,15 @@
 SHELL := /bin/sh
 CORES ?= $(shell nproc 2>/dev/null || echo 1)
 STUDY ?= config/study.yaml
+MAP_RUNS ?= 64
+MAP_MINUTES ?= 20
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 VENV := .venv
 BIN := $(VENV)/bin
 SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
+.PHONY: map
 .PHONY: help report test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean
 
 help: ## Show this list
@@ -40,6 +43,9 @@ mesh-study: $(BIN)/.installed gfortran ## Three meshes of one belt and one rig c
 
 ladder: $(BIN)/.installed ## Run the model ladder anew: error and cost of every rung, effects, sensitivity
 	@$(SNAKEMAKE) ladder
+
+map: $(BIN)/.installed gfortran ## Where each model may be believed: FE over the dimensionless groups; goes on where it was
+	@$(BIN)/tread-validate map $(STUDY) --runs $(MAP_RUNS) --minutes $(MAP_MINUTES) -o results/map
 
 # material_pyvisco.py needs packages of its own (benchmarks/requirements-pyvisco.txt) and is run by hand
 bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory

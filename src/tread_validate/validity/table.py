@@ -91,10 +91,7 @@ def read_table(text: str) -> tuple[Point, ...]:
                 row["kind"],
                 Groups(**{name: float(row[name]) for name in NAMES}),
                 {each: float(row[f"reference_{each}"]) for each in ERRORS},
-                {
-                    head: {each: float(row[f"{head}_{each}"]) for each in ERRORS}
-                    for head in models
-                },
+                {head: {each: float(row[f"{head}_{each}"]) for each in ERRORS} for head in models},
             )
             for row in rows
         )
