@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass, fields
+from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,8 +52,8 @@ class Groups:
     skew: float
 
 
-LINEAR = ("friction", "creep", "poisson", "skew")
-"""Groups that are compared as they are; the others by their logarithm."""
+LINEAR = ("friction", "creep", "skew")
+"""Groups that are compared as they are; the others by their logarithm, Poisson's ratio by that of 1 - 2 nu."""
 NAMES = tuple(field.name for field in fields(Groups))
 
 
@@ -90,5 +90,6 @@ def groups_of(case: Case) -> Groups:
 
 def coordinates(groups: Groups) -> Array:
     """Return the groups as numbers to measure distances with, (11,)."""
-    values = zip(NAMES, astuple(groups), strict=True)
-    return np.array([value if name in LINEAR else math.log(max(value, 1e-12)) for name, value in values])
+    values = asdict(groups)
+    values["poisson"] = 1.0 - 2.0 * groups.poisson
+    return np.array([values[name] if name in LINEAR else math.log(max(values[name], 1e-12)) for name in NAMES])
