@@ -14,7 +14,7 @@ def command(
         "results/map"
     ),
     runs: Annotated[int, typer.Option("--runs", min=1, max=1024, help="points of the design")] = 64,
-    minutes: Annotated[float, typer.Option("--minutes", min=0.0, help="no new point begins after so long")] = 30.0,
+    minutes: Annotated[int, typer.Option("--minutes", min=0, max=10080, help="no new point begins after so long")] = 30,
 ) -> None:
     """Run a designed study over the dimensionless groups against FE on two coarse meshes; tabulate every model's error.
 
