@@ -31,7 +31,8 @@ _plain = kinetic_kernel
 def kinetic_kernel(*arguments):
     return 2.0 * _plain(*arguments)
 """,
-    "spring/coupled/contact.py": "\nFREE = 7\n",
+    "spring/coupled/inputs.py": "\nFREE = 7\n",
+    "spring/coupled/contact.py": "\nPLAIN = _kinetic\n@kernel()\ndef _kinetic(*given):\n    return 2.0 * PLAIN(*given)\n",
     "fe/amplitude.py": """
 _plain = amplitude_at
 @kernel()
@@ -46,7 +47,8 @@ import json
 import numpy as np
 from tread_validate.fe.explicit_kernel import advance
 from tread_validate.fe.step_kernel import evaluate_amplitudes
-from tread_validate.spring.coupled.march import _carried, march
+from tread_validate.spring.coupled.march import march
+from tread_validate.spring.coupled.step import _follow
 from tread_validate.spring.inputs import Grip
 from tread_validate.spring.slip import kinetic
 
@@ -56,10 +58,11 @@ rows = np.array([0, 2])
 evaluate_amplitudes(
     rows, np.arange(2.0), two, np.arange(2.0), np.array([False]), zero, np.array([0]), 0.5, value, area
 )
-carried = _carried(np.zeros(3), np.ones(3), np.ones(3), 0, np.zeros(2), 1.0, 0.0, np.zeros(2), np.inf, 0.0, 1.0)
+q = np.zeros((1, 3))
+_follow(np.eye(3, dtype=np.float32), np.array([0]), np.ones((1, 3)), 0, 1, q)
 print(json.dumps({
     "friction to spring": kinetic(Grip(0.9, 0, np.array([0.7]), one, one, np.ones((1, 1))), 1.0, 1.0),
-    "contact folder to march": carried[0],
+    "state code to step": q[0, 0],
     "amplitude to FE step": value[0],
     "march": march._cache._cache_file.digest,
     "advance": advance._cache._cache_file.digest,
@@ -93,8 +96,8 @@ def test_an_edit_of_a_callee_in_any_file_is_seen_by_its_callers_and_so_is_its_re
     assert before["friction to spring"] == 0.7
     assert after["friction to spring"] == 1.4
     assert after["amplitude to FE step"] == 2.0 * before["amplitude to FE step"] == 2.0
-    assert before["contact folder to march"] == 2.0  # a free node goes with its mount
-    assert after["contact folder to march"] == 0.0  # 0 no longer stands for free
+    assert before["state code to step"] == 1.0  # a free node follows the forces
+    assert after["state code to step"] == 0.0  # 0 no longer stands for free
     assert after["march"] != before["march"]
     assert after["advance"] != before["advance"]
     assert run(tmp_path, CALLERS) == before

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, NonNegativeFloat, ValidationError
+from pydantic import BaseModel, ConfigDict, NonNegativeFloat
 
-from ..errors import InputError, one_line
-from ..files import read_text, write_text
+from ..files import write_text
+from ..model_file import read_model
 
 
 class Outcome(BaseModel):
@@ -49,8 +49,4 @@ def write_outcome(path: Path | str, outcome: Outcome) -> None:
 
 def read_outcome(path: Path | str) -> Outcome:
     """Read an outcome; raises `InputError` for what is none."""
-    try:
-        return Outcome.model_validate_json(read_text(path))
-    except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-        raise InputError(path, one_line(fault["msg"]), "the outcome of a model's run") from None
+    return read_model(path, Outcome)  # JSON is YAML

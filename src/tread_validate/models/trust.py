@@ -10,13 +10,12 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
-from ..errors import InputError, one_line
-from ..files import read_text
+from ..errors import InputError
+from ..model_file import read_model
 from ..study import LoadedStudy
 from ..study.own_model import HistoriesModel, OwnModel
-from ..yaml_text import load_yaml
 
 VARIABLE = "TREAD_VALIDATE_TRUST_MODELS"
 
@@ -66,9 +65,5 @@ def _in_trusted_folder(source: Path) -> bool:
     if not file.is_file():
         return False
     place = source.resolve()
-    try:
-        folders = Settings.model_validate(load_yaml(read_text(file), file)).trusted_folders
-    except ValidationError as error:
-        fault = error.errors(include_url=False)[0]
-        raise InputError(file, one_line(fault["msg"]), "trusted_folders: a list of folders") from None
+    folders = read_model(file, Settings).trusted_folders
     return any(place.is_relative_to(folder.expanduser().resolve()) for folder in folders)
