@@ -32,7 +32,7 @@ def kinetic_kernel(*arguments):
     return 2.0 * _plain(*arguments)
 """,
     "spring/coupled/inputs.py": "\nFREE = 7\n",
-    "spring/coupled/contact.py": "\nPLAIN = _kinetic\n@kernel()\ndef _kinetic(*given):\n    return 2.0 * PLAIN(*given)\n",
+    "spring/coupled/contact.py": "\nPLAIN = _kinetic\n@kernel()\ndef _kinetic(*of):\n    return 2.0 * PLAIN(*of)\n",
     "fe/amplitude.py": """
 _plain = amplitude_at
 @kernel()
