@@ -11,6 +11,8 @@ import shutil
 import sys
 from pathlib import Path
 
+from api_page import api_page
+
 from tread_validate.files import write_text
 from tread_validate.study.reference_page import study_reference
 
@@ -134,6 +136,7 @@ def main() -> int:
     shutil.rmtree(OUT, ignore_errors=True)
     OUT.mkdir(parents=True)
     write_text(OUT / "study_file.md", study_reference())
+    write_text(OUT / "api.md", api_page())
     write_text(OUT / "walkthrough.md", walkthrough())
     write_text(OUT / "validation.md", validation() + "\n")
     shutil.copyfile(ROOT / "CHANGELOG.md", OUT / "changelog.md")
