@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import inspect
+import re
 
 import tread_validate as tv
 from tread_validate.history import History
 
+PARAMETER = re.compile(r"[a-z_][\w, ]* : ")
 METHODS = ("of", "read_csv", "write_csv", "to_frame", "plot")
 
 
@@ -14,8 +16,8 @@ def api_page() -> str:
     """Return docs/generated/api.md: every name of the front door with its signature and docstring."""
     parts = [
         "# The front door: `import tread_validate as tv`",
-        "`import tread_validate` loads nothing else; each name loads its part of the package when it is first used. The "
-        "examples are run by the tests, from the top of a clone.",
+        "`import tread_validate` loads nothing else; each name loads its part of the package when it is first used. "
+        "The examples are run by the tests, from the top of a clone.",
     ]
     for name in tv.__all__:
         item = getattr(tv, name)
@@ -46,6 +48,8 @@ def _doc(item: object) -> str:
             code = block
         if index in underlined:
             continue
+        if not code and PARAMETER.match(line):
+            line = f"- `{line}`"
         out.append(f"**{line}**\n" if index + 1 in underlined else line.replace("``", "`") if not code else line)
     return "\n".join([*out, *(["```"] if code else [])])
 
