@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -56,11 +57,13 @@ def run_model(
     folder: Path,
     *,
     trusted: bool = False,
+    jobs: int = 1,
     progress: Progress = iter,
 ) -> tuple[Outcome, ...]:
     """Run one model of the study over `cases` (creep ratios resolved) and file histories and outcomes in `folder`.
 
-    A case that fails loses nothing but itself: its outcome says why, and no history of it is left in the folder.
+    `jobs` cases run at a time where the model is a command that runs one. A case that fails loses nothing but itself:
+    its outcome says why, and no history of it is left in the folder.
 
     Raises
     ------
@@ -83,10 +86,10 @@ def run_model(
     job = Job(name, model, study.root, tuple(cases), documents, folder, code, problems)
     with tempfile.TemporaryDirectory(prefix="tread-validate-") as temporary:
         scratch = Path(temporary)
-        return tuple(_all(job, scratch, progress))
+        return tuple(_all(job, scratch, progress, jobs))
 
 
-def _all(job: Job, scratch: Path, progress: Progress) -> Iterator[Outcome]:
+def _all(job: Job, scratch: Path, progress: Progress, jobs: int) -> Iterator[Outcome]:
     if isinstance(job.model, HistoriesModel):
         place = job.root / job.model.folder
         if not place.is_dir():
@@ -114,10 +117,18 @@ def _all(job: Job, scratch: Path, progress: Progress) -> Iterator[Outcome]:
             # a run for all that stopped half way has still computed the histories it has written
             yield _filed(job, case, target, share, shared=True)
         return
-    for case in progress(job.cases):
+    command = job.model
+
+    def one(case: Case) -> Outcome:
         target = made / f"{case.case_id}.csv"
         fill = {"case": files / f"{case.case_id}.json", "history": target}
-        yield _filed(job, case, target, run_command(job.model, job.root, fill, job.folder / f"{case.case_id}.log"))
+        return _filed(job, case, target, run_command(command, job.root, fill, job.folder / f"{case.case_id}.log"))
+
+    # threads only wait here: the work is in the processes that they start
+    with ThreadPoolExecutor(jobs) as pool:
+        running = [pool.submit(one, case) for case in job.cases]
+        for _, future in zip(progress(job.cases), running, strict=True):
+            yield future.result()
 
 
 def _filed(job: Job, case: Case, made: Path, done: Finished | None, shared: bool = False) -> Outcome:
