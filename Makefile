@@ -8,18 +8,22 @@ MAP_MINUTES ?= 20
 export PATH := $(CURDIR)/.venv/bin:$(PATH)
 VENV := .venv
 BIN := $(VENV)/bin
-SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) --profile workflow/profiles/default --cores $(CORES)
+REPLACE ?= 0
+SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
-.PHONY: map
-.PHONY: help report test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean
+.PHONY: help report check map test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean
 
 help: ## Show this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-report: $(BIN)/.installed ## Set up, run the study and write reports/index.html and reports/report.pdf
+report: $(BIN)/.installed ## Set up, run STUDY and write reports/<its name>/index.html and report.pdf
 	@$(SNAKEMAKE)
-	@echo "The report: reports/index.html (and reports/report.pdf)"
+	@$(BIN)/tread-validate verdict $(STUDY)
+
+check: $(BIN)/.installed ## The same without the report; 1 where the baseline moved or a verdict flipped, 3 without anything compared
+	@$(SNAKEMAKE) checked
+	@$(BIN)/tread-validate verdict $(STUDY) --gate
 
 test: $(BIN)/.installed-dev system-packages lint ## Set up, then check style, types, layers and workflow, and run the tests
 	@$(BIN)/pytest -m "not heavy" -n $(CORES) --dist worksteal -q
@@ -35,10 +39,10 @@ lint: $(BIN)/.installed-dev ## Style, types, import layers, workflow
 verify: $(BIN)/.installed-dev system-packages ## The heavy verification: fine meshes, long convergence series
 	@$(BIN)/pytest -m heavy -q
 
-reference: $(BIN)/.installed gfortran ## Run the embedded FE engine for every case whose reference is missing or stale
+reference: $(BIN)/.installed gfortran ## Run the study's FE engine for every case whose reference is missing, stale or of other code (REPLACE=1)
 	@$(SNAKEMAKE) reference
 
-mesh-study: $(BIN)/.installed gfortran ## Three meshes of one belt and one rig case, extrapolated
+mesh-study: $(BIN)/.installed gfortran ## Three meshes of one typical case of every kind of path and block, extrapolated
 	@$(SNAKEMAKE) mesh_study
 
 ladder: $(BIN)/.installed ## Run the model ladder anew: error and cost of every rung, effects, sensitivity
@@ -65,7 +69,8 @@ test-robustness: $(BIN)/.installed-dev ## Kill -9, two runs at once, full and re
 	@$(BIN)/pytest -m heavy -q -rP tests/unit/fuzz
 
 clean: ## Remove what the pipeline made (not the virtual environment)
-	@rm -rf results reports/tables reports/figures reports/*.html reports/*.pdf .snakemake
+	@rm -rf results logs reports/*.html .snakemake
+	@find reports -mindepth 2 -maxdepth 2 ! -name baseline -exec rm -rf {} +
 	@find fe_inputs -mindepth 1 -maxdepth 1 -type d -exec rm -rf {} +
 
 $(BIN)/.installed: pyproject.toml constraints.txt workflow/setup/environment.sh

@@ -13,17 +13,16 @@ validate(config, "workflow/schemas/workflow.schema.yaml")
 include: "workflow/rules/common.smk"
 include: "workflow/rules/decks.smk"
 include: "workflow/rules/spring.smk"
-include: "workflow/rules/mesh.smk"
 include: "workflow/rules/fe.smk"
-include: "workflow/rules/engines.smk"
-include: "workflow/rules/reference.smk"
 include: "workflow/rules/compare.smk"
+include: "workflow/rules/mesh.smk"
 include: "workflow/rules/ladder.smk"
 include: "workflow/rules/report.smk"
 
 
 localrules:
     all,
+    checked,
 
 
 rule all:

@@ -14,6 +14,7 @@ import pandas as pd
 
 from tread_validate.compare.tables import TABLES
 from tread_validate.history import History
+from tread_validate.source_code import code_digest
 from tread_validate.study import Case, load_study
 
 NASTY = "</script><script>document.title='caught'</script><img src=x onerror=alert(1)> & #set *bold* \"quoted\""
@@ -79,7 +80,8 @@ def fabricate(folder: Path) -> Fabricated:
         "commit": "0" * 12,
         "version": "0.1.0",
         "study": "tiny",
-        "study_digest": "f" * 64,
+        "study_digest": load_study(places.study).digest,
+        "code": {"compare": code_digest("compare")},
         "packages": {"numpy": "2"},
         "inputs": {"study.yaml": "f" * 64},
         "sources": {REFERENCE: {"current": len(cases) - 2, "missing": 1, "stale": 1}},

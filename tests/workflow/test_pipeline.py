@@ -59,37 +59,37 @@ def finished(workspace) -> Path:
 
 
 def test_study_becomes_decks_histories_tables_and_a_report(finished):
-    cases = sorted(path.name for path in (finished / "fe_inputs").iterdir())
+    cases = sorted(path.name for path in (finished / "fe_inputs" / "liu2010").iterdir())
     assert len(cases) == 5
     for case in cases:
-        assert {path.name for path in (finished / "fe_inputs" / case).iterdir()} >= {
+        assert {path.name for path in (finished / "fe_inputs" / "liu2010" / case).iterdir()} >= {
             f"{case}.inp",
             "vfric.f",
             "mesh.vtu",
         }
-        assert (finished / "results" / "spring" / "paper" / f"{case}.csv").is_file()
-    page = (finished / "reports" / "index.html").read_text(encoding="utf-8")
+        assert (finished / "results" / "liu2010" / "spring" / "paper" / f"{case}.csv").is_file()
+    page = (finished / "reports" / "liu2010" / "index.html").read_text(encoding="utf-8")
     assert all(case in page for case in cases)
-    assert (finished / "reports" / "report.pdf").read_bytes().startswith(b"%PDF")
+    assert (finished / "reports" / "liu2010" / "report.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_second_run_has_nothing_to_do(finished):
-    before = (finished / "reports" / "index.html").stat().st_mtime_ns
+    before = (finished / "reports" / "liu2010" / "index.html").stat().st_mtime_ns
     done = snakemake(finished)
     assert done.returncode == 0
     assert "Nothing to be done" in done.stdout + done.stderr
-    assert (finished / "reports" / "index.html").stat().st_mtime_ns == before
+    assert (finished / "reports" / "liu2010" / "index.html").stat().st_mtime_ns == before
 
 
 def test_lost_file_is_made_again_and_the_tables_are_the_same(finished):
     """Byte for byte: histories and tables depend on the study alone."""
-    tables = {path.name: path.read_bytes() for path in (finished / "results" / "tables").glob("*.csv")}
+    tables = {path.name: path.read_bytes() for path in (finished / "results" / "liu2010" / "tables").glob("*.csv")}
     assert tables
-    next((finished / "results" / "spring" / "paper").glob("rig-*.csv")).unlink()
-    (finished / "results" / "tables" / "errors.csv").unlink()
+    next((finished / "results" / "liu2010" / "spring" / "paper").glob("rig-*.csv")).unlink()
+    (finished / "results" / "liu2010" / "tables" / "errors.csv").unlink()
     done = snakemake(finished, "--until", "tables")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert {path.name: path.read_bytes() for path in (finished / "results" / "tables").glob("*.csv")} == tables
+    assert {path.name: path.read_bytes() for path in (finished / "results" / "liu2010" / "tables").glob("*.csv")} == tables
 
 
 def test_snakemake_report_holds_page_and_pdf(finished, tmp_path):

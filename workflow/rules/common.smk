@@ -1,34 +1,50 @@
-# The study, read and validated before any job; names that the rules share.
+# The study, read and validated before any job; its workspace; the digests of the code behind each step. A rule has the
+# digest of its code among its parameters: after an edit just what depends on it runs again, and so it does when the
+# edit is taken back.
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 from tread_validate.errors import InputError
+from tread_validate.reference import ENGINE_PARTS
+from tread_validate.source_code import code_digest
+from tread_validate.spring.variants import code_digest as variant_code
 from tread_validate.study import load_study
+from tread_validate.study.typical import path_and_block, typical_cases
+from tread_validate.workspace import bind
 
 STUDY = config["study"]
-DECKS = config["decks"]
-RESULTS = config["results"]
 REFERENCES = config["references"]
-REPORTS = config["reports"]
+SETTINGS = config["engines"]
 
 try:
     study = load_study(STUDY)
-    CASES = [case.case_id for case in study.cases()]
-    DATA_FILES = sorted(
-        {str(path) for case in study.cases() for path in case.input_files()}
+    STUDY_CASES = study.cases()
+    NAME = study.model.name
+    DECKS, RESULTS, REPORTS, LOGS = (
+        f"{config[place]}/{NAME}" for place in ("decks", "results", "reports", "logs")
     )
+    bind(Path(RESULTS), Path(STUDY))
+    VARIANTS = list(study.model.spring.variants)
+    VARIANT_CODE = {variant: variant_code(variant) for variant in VARIANTS}
 except InputError as error:
     raise WorkflowError(str(error)) from None
 
-VARIANTS = list(study.model.spring.variants)
+CASES = [case.case_id for case in STUDY_CASES]
+DATA_FILES = sorted({str(path) for case in STUDY_CASES for path in case.input_files()})
 ENGINE = study.model.engine
-MESH_ERRORS = f"{REFERENCES}/fe/mesh"
-# the mesh study: element size in the file name -> layers over the height, and the two cases it is made with
-MESH_LAYERS = {"2p0": 4, "1p0": 8, "0p5": 16}
-MESH_CASES = {
-    "rig": "rig-rectangle-22c-0p2mm-300rpm",
-    "belt": "belt-simplified-60c-0p2mm-16p7mps-creep0p3",
+RUNS = {
+    "embedded": "fe",
+    "calculix": "calculix",
+    "abaqus": f"abaqus --settings {SETTINGS}",
 }
+CODE = {part: code_digest(part) for part in ("deck", "compare", "ladder", "report")}
+ENGINE_CODE = {engine: code_digest(part) for engine, part in ENGINE_PARTS.items()}
+REFERENCE_FILES = sorted(
+    str(path)
+    for path in Path(REFERENCES).glob("fe/**/*")
+    if path.suffix in (".csv", ".yaml", ".txt")
+)
+BASELINE = Path(REPORTS) / "baseline" / "baseline.yaml"
 ENVIRONMENT = "../envs/tread_validate.yaml"
 REPORT_PAGE = f"{REPORTS}/index.html"
 REPORT_PDF = f"{REPORTS}/report.pdf"
@@ -37,10 +53,4 @@ REPORT_PDF = f"{REPORTS}/report.pdf"
 wildcard_constraints:
     case=r"[a-z0-9-]+",
     variant=r"[a-z][a-z0-9_]*",
-    size=r"[0-9]+p[0-9]+",
-    kind=r"rig|belt",
-
-
-def stale_histories(wildcards):
-    listed = Path(checkpoints.stale_references.get().output[0]).read_text().split()
-    return expand(f"{RESULTS}/fe/embedded/{{case}}.csv", case=listed)
+    mesh=r"coarse|medium|fine",

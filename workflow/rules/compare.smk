@@ -1,15 +1,21 @@
 # Histories and references -> rows, tables, regressions, verdicts; and the distance to the accepted baseline.
-REFERENCE_FILES = sorted(
-    str(path)
-    for path in Path(REFERENCES).glob("fe/**/*")
-    if path.suffix in (".csv", ".yaml")
-)
-
-
-# Only a baseline of this study says anything about its tables; without one nothing is checked.
-BASELINE = Path(REPORTS) / "baseline" / "baseline.yaml"
-CHECKED = BASELINE.is_file() and f"study: {study.model.name}\n" in BASELINE.read_text()
-LADDER_FILES = sorted(str(path) for path in Path(REFERENCES).glob("ladder/*.csv"))
+rule references:
+    input:
+        package=f"{REFERENCES}/datapackage.yaml",
+        published=f"{REFERENCES}/published/published.csv",
+        runs=REFERENCE_FILES,
+    output:
+        f"{RESULTS}/references.txt",
+    log:
+        f"{LOGS}/references.log",
+    conda:
+        ENVIRONMENT
+    params:
+        folder=REFERENCES,
+    message:
+        "Checking the reference data"
+    shell:
+        "tread-validate references {params.folder} -o {output} > {log} 2>&1"
 
 
 rule tables:
@@ -20,23 +26,23 @@ rule tables:
         ),
         decks=rules.decks.output.inp,
         references=REFERENCE_FILES,
-        package=rules.references.input.package,
         checked=rules.references.output,
     output:
         errors=f"{RESULTS}/tables/errors.csv",
         regression=f"{RESULTS}/tables/regression.csv",
         claims=f"{RESULTS}/tables/claims.csv",
     log:
-        "logs/tables.log",
+        f"{LOGS}/tables.log",
     benchmark:
-        "logs/benchmarks/tables.tsv"
+        f"{LOGS}/benchmarks/tables.tsv"
     conda:
         ENVIRONMENT
     params:
-        spring=lambda wildcards, input: Path(input.histories[0]).parents[1],
-        references=lambda wildcards, input: Path(input.package).parent,
-        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
-        folder=lambda wildcards, output: Path(output.errors).parent,
+        spring=f"{RESULTS}/spring",
+        references=REFERENCES,
+        decks=DECKS,
+        folder=f"{RESULTS}/tables",
+        code=[CODE["compare"], ENGINE_CODE],
     message:
         "Comparing every run with its reference"
     shell:
@@ -53,16 +59,27 @@ rule check:
         markdown=f"{RESULTS}/check/delta.md",
         junit=f"{RESULTS}/check/junit.xml",
     log:
-        "logs/check.log",
+        f"{LOGS}/check.log",
     benchmark:
-        "logs/benchmarks/check.tsv"
+        f"{LOGS}/benchmarks/check.tsv"
     conda:
         ENVIRONMENT
     params:
-        tables=lambda wildcards, input: Path(input.errors).parent,
+        tables=f"{RESULTS}/tables",
         folder=lambda wildcards, input: Path(input.baseline).parent,
+        code=CODE["compare"],
     message:
         "Measuring the distance to the accepted baseline"
     shell:
         "tread-validate check {params.tables} --baseline {params.folder} -o {output.delta} "
         "--markdown {output.markdown} --junit {output.junit} --report-only > {log} 2>&1"
+
+
+# What `make report` and `make check` end with: both wait for these.
+CHECKED = rules.check.output.delta if BASELINE.is_file() else []
+
+
+rule checked:
+    input:
+        rules.tables.output.errors,
+        CHECKED,

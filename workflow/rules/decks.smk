@@ -8,13 +8,14 @@ rule decks:
         user=expand(f"{DECKS}/{{case}}/vfric.f", case=CASES),
         mesh=expand(f"{DECKS}/{{case}}/mesh.vtu", case=CASES),
     log:
-        "logs/decks.log",
+        f"{LOGS}/decks.log",
     benchmark:
-        "logs/benchmarks/decks.tsv"
+        f"{LOGS}/benchmarks/decks.tsv"
     conda:
         ENVIRONMENT
     params:
-        folder=lambda wildcards, output: Path(output.inp[0]).parents[1],
+        folder=DECKS,
+        code=CODE["deck"],
     message:
         "Writing the decks of all cases"
     shell:

@@ -1,23 +1,31 @@
-# Decks -> FE reference runs. A report never waits for these: it uses the committed references whose deck digest
-# still matches and says which are stale or missing. `make reference` runs just those.
+# Decks -> reference runs by the study's engine. A report never waits for these: it uses the filed references of the same
+# problems and says which are stale or missing. `make reference` runs just those.
 checkpoint stale_references:
     input:
         study=STUDY,
         decks=rules.decks.output.inp,
+        references=REFERENCE_FILES,
     output:
         f"{RESULTS}/fe/stale.txt",
     log:
-        "logs/stale_references.log",
+        f"{LOGS}/stale_references.log",
     conda:
         ENVIRONMENT
     params:
-        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        decks=DECKS,
         references=REFERENCES,
+        settings=SETTINGS,
+        code=ENGINE_CODE,
     message:
         "Looking for stale references"
     shell:
         "tread-validate stale {input.study} --decks {params.decks} --references {params.references} "
-        "-o {output} > {log} 2>&1"
+        "--runnable --settings {params.settings} -o {output} > {log} 2>&1"
+
+
+def stale_histories(wildcards):
+    listed = Path(checkpoints.stale_references.get().output[0]).read_text().split()
+    return expand(f"{RESULTS}/fe/{ENGINE}/{{case}}.csv", case=listed)
 
 
 rule fe:
@@ -25,19 +33,22 @@ rule fe:
         inp=f"{DECKS}/{{case}}/{{case}}.inp",
         user=f"{DECKS}/{{case}}/vfric.f",
     output:
-        history=f"{RESULTS}/fe/embedded/{{case}}.csv",
-        record=f"{RESULTS}/fe/embedded/{{case}}.yaml",
+        history=f"{RESULTS}/fe/{ENGINE}/{{case}}.csv",
+        record=f"{RESULTS}/fe/{ENGINE}/{{case}}.yaml",
     log:
-        "logs/fe/{case}.log",
+        f"{LOGS}/fe/{{case}}.log",
     benchmark:
-        "logs/benchmarks/fe/{case}.tsv"
+        f"{LOGS}/benchmarks/fe/{{case}}.tsv"
     conda:
         ENVIRONMENT
     threads: 1
+    params:
+        run=RUNS[ENGINE],
+        code=ENGINE_CODE[ENGINE],
     message:
-        "Running the FE engine on {wildcards.case}"
+        f"Running engine {ENGINE} on {{wildcards.case}}"
     shell:
-        "tread-validate fe {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
+        "tread-validate {params.run} {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
 
 
 rule reference:
@@ -45,16 +56,17 @@ rule reference:
         histories=stale_histories,
         decks=rules.decks.output.inp,
     log:
-        "logs/reference.log",
+        f"{LOGS}/reference.log",
     conda:
         ENVIRONMENT
     params:
         engine=ENGINE,
-        study=study.model.name,
-        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        study=NAME,
+        decks=DECKS,
         references=REFERENCES,
+        replace="--replace" if config["replace"] else "",
     message:
         "Filing the reference runs"
     shell:
         "tread-validate file-references {input.histories} --engine {params.engine} --decks {params.decks} "
-        "--study {params.study} --references {params.references} > {log} 2>&1"
+        "--study {params.study} --references {params.references} {params.replace} > {log} 2>&1"

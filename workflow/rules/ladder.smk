@@ -1,23 +1,23 @@
 # Every rung of the model ladder against the FE runs, and the studies around it. Takes minutes, so a report does not wait
-# for it: it shows the committed result and says where that belongs to another study. `make ladder` makes it anew.
+# for it: it shows the filed result of the study and says where other conditions or code have made it stale.
 rule ladder_tables:
     input:
         study=STUDY,
         data=DATA_FILES,
         decks=rules.decks.output.inp,
-        package=f"{REFERENCES}/datapackage.yaml",
         references=REFERENCE_FILES,
     output:
         folder=directory(f"{RESULTS}/ladder"),
     log:
-        "logs/ladder.log",
+        f"{LOGS}/ladder.log",
     benchmark:
-        "logs/benchmarks/ladder.tsv"
+        f"{LOGS}/benchmarks/ladder.tsv"
     conda:
         ENVIRONMENT
     params:
-        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
-        references=lambda wildcards, input: Path(input.package).parent,
+        decks=DECKS,
+        references=REFERENCES,
+        code=CODE["ladder"],
     message:
         "Running the model ladder"
     shell:
@@ -29,12 +29,12 @@ rule ladder:
     input:
         rules.ladder_tables.output.folder,
     log:
-        "logs/ladder-filing.log",
+        f"{LOGS}/ladder-filing.log",
     conda:
         ENVIRONMENT
     params:
-        target=f"{REFERENCES}/ladder",
+        target=f"{REFERENCES}/ladder/{NAME}",
     message:
         "Filing the model ladder"
     shell:
-        "rm -rf {params.target} && cp -r {input} {params.target} > {log} 2>&1"
+        "rm -rf {params.target} && mkdir -p {params.target} && cp -r {input}/. {params.target} > {log} 2>&1"

@@ -1,24 +1,38 @@
-# One rig and one belt case on three meshes: what the mesh of the reference runs is worth.
+# What the mesh of the reference runs is worth: one typical case of every kind of path and block (the rule of choice is
+# that of `typical_cases`), on the study's mesh, one of twice and one of half its element size.
+MESH_CASES = [case.case_id for case in typical_cases(STUDY_CASES, path_and_block)]
+MESHES = {"coarse": 2.0, "medium": 1.0, "fine": 0.5}
+
+
+def mesh_options(wildcards):
+    deck, factor = study.model.deck, MESHES[wildcards.mesh]
+    if deck.layers % 2 or deck.layers < 4:
+        raise WorkflowError(
+            f"{STUDY}: deck.layers: got {deck.layers}, expected an even number of 4 or more for a mesh study: "
+            "the coarse mesh has half of it"
+        )
+    return f"--element-size {deck.element_size_mm * factor:g} --layers {round(deck.layers / factor)}"
+
+
 rule mesh_deck:
     input:
         study=STUDY,
         data=DATA_FILES,
     output:
-        inp=f"{RESULTS}/mesh/{{size}}/{{case}}/{{case}}.inp",
-        user=f"{RESULTS}/mesh/{{size}}/{{case}}/vfric.f",
+        inp=f"{RESULTS}/mesh/{{mesh}}/{{case}}/{{case}}.inp",
+        user=f"{RESULTS}/mesh/{{mesh}}/{{case}}/vfric.f",
     log:
-        "logs/mesh/{size}/{case}-deck.log",
+        f"{LOGS}/mesh/{{mesh}}/{{case}}-deck.log",
     conda:
         ENVIRONMENT
     params:
         folder=lambda wildcards, output: Path(output.inp).parents[1],
-        element=lambda wildcards: wildcards.size.replace("p", "."),
-        layers=lambda wildcards: MESH_LAYERS[wildcards.size],
+        mesh=mesh_options,
+        code=CODE["deck"],
     message:
-        "Writing the {wildcards.size} mm deck of {wildcards.case}"
+        "Writing the {wildcards.mesh} deck of {wildcards.case}"
     shell:
-        "tread-validate deck {input.study} --case {wildcards.case} --element-size {params.element} "
-        "--layers {params.layers} -o {params.folder} > {log} 2>&1"
+        "tread-validate deck {input.study} --case {wildcards.case} {params.mesh} -o {params.folder} > {log} 2>&1"
 
 
 rule mesh_run:
@@ -26,52 +40,56 @@ rule mesh_run:
         inp=rules.mesh_deck.output.inp,
         user=rules.mesh_deck.output.user,
     output:
-        history=f"{RESULTS}/mesh/{{size}}/{{case}}.csv",
+        history=f"{RESULTS}/mesh/{{mesh}}/{{case}}.csv",
+        record=f"{RESULTS}/mesh/{{mesh}}/{{case}}.yaml",
     log:
-        "logs/mesh/{size}/{case}.log",
+        f"{LOGS}/mesh/{{mesh}}/{{case}}.log",
     benchmark:
-        "logs/benchmarks/mesh-{size}/{case}.tsv"
+        f"{LOGS}/benchmarks/mesh-{{mesh}}/{{case}}.tsv"
     conda:
         ENVIRONMENT
+    params:
+        run=RUNS[ENGINE],
+        code=ENGINE_CODE[ENGINE],
     message:
-        "Running {wildcards.case} on the {wildcards.size} mm mesh"
+        "Running {wildcards.case} on the {wildcards.mesh} mesh"
     shell:
-        "tread-validate fe {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
+        "tread-validate {params.run} {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
 
 
 rule mesh_error:
     input:
         study=STUDY,
-        runs=lambda wildcards: expand(
-            f"{RESULTS}/mesh/{{size}}/{{case}}.csv",
-            size=MESH_LAYERS,
-            case=MESH_CASES[wildcards.kind],
-        ),
+        runs=expand(f"{RESULTS}/mesh/{{mesh}}/{{{{case}}}}.csv", mesh=MESHES),
     output:
-        f"{RESULTS}/mesh/{{kind}}.yaml",
+        f"{RESULTS}/mesh/{{case}}.yaml",
     log:
-        "logs/mesh/{kind}.log",
+        f"{LOGS}/mesh/{{case}}.log",
     conda:
         ENVIRONMENT
     params:
-        sizes=" ".join(f"--size {size.replace('p', '.')}" for size in MESH_LAYERS),
+        sizes=[
+            f"--size {study.model.deck.element_size_mm * factor:g}"
+            for factor in MESHES.values()
+        ],
+        code=CODE["compare"],
     message:
-        "Extrapolating the {wildcards.kind} case to element size 0"
+        "Extrapolating {wildcards.case} to element size 0"
     shell:
         "tread-validate mesh-error {input.study} {input.runs} {params.sizes} -o {output} > {log} 2>&1"
 
 
-# The result is copied over the committed one, which `make reference` reads and never makes by itself.
 rule mesh_study:
     input:
-        expand(f"{RESULTS}/mesh/{{kind}}.yaml", kind=MESH_CASES),
+        expand(f"{RESULTS}/mesh/{{case}}.yaml", case=MESH_CASES),
     log:
-        "logs/mesh_study.log",
+        f"{LOGS}/mesh_study.log",
     conda:
         ENVIRONMENT
     params:
-        target=MESH_ERRORS,
+        references=REFERENCES,
+        studies=lambda wildcards, input: [f"--mesh {file}" for file in input],
     message:
         "Filing the mesh study"
     shell:
-        "mkdir -p {params.target} && cp {input} {params.target} > {log} 2>&1"
+        "tread-validate file-references {params.studies} --references {params.references} > {log} 2>&1"

@@ -3,12 +3,13 @@ rule report:
     input:
         study=STUDY,
         errors=rules.tables.output.errors,
-        delta=rules.check.output.delta if CHECKED else [],
+        delta=CHECKED,
         histories=rules.tables.input.histories,
         decks=rules.decks.output.mesh,
-        package=rules.references.input.package,
         references=REFERENCE_FILES,
-        ladder=LADDER_FILES,
+        ladder=sorted(
+            str(path) for path in Path(REFERENCES, "ladder", NAME).glob("*.*")
+        ),
     output:
         page=report(
             REPORT_PAGE, caption="../report/page.rst", category="Validation report"
@@ -17,18 +18,19 @@ rule report:
             REPORT_PDF, caption="../report/pdf.rst", category="Validation report"
         ),
     log:
-        "logs/report.log",
+        f"{LOGS}/report.log",
     benchmark:
-        "logs/benchmarks/report.tsv"
+        f"{LOGS}/benchmarks/report.tsv"
     conda:
         ENVIRONMENT
     params:
-        tables=lambda wildcards, input: Path(input.errors).parent,
-        spring=lambda wildcards, input: Path(input.histories[0]).parents[1],
-        references=lambda wildcards, input: Path(input.package).parent,
-        decks=lambda wildcards, input: Path(input.decks[0]).parents[1],
+        tables=f"{RESULTS}/tables",
+        spring=f"{RESULTS}/spring",
+        references=REFERENCES,
+        decks=DECKS,
         delta=lambda wildcards, input: f"--delta {input.delta}" if input.delta else "",
-        folder=lambda wildcards, output: Path(output.page).parent,
+        folder=REPORTS,
+        code=[CODE["report"], CODE["ladder"]],
     message:
         "Writing the report"
     shell:

@@ -7,13 +7,14 @@ rule spring:
         histories=expand(f"{RESULTS}/spring/{{{{variant}}}}/{{case}}.csv", case=CASES),
         summary=f"{RESULTS}/spring/{{variant}}/summary.csv",
     log:
-        "logs/spring-{variant}.log",
+        f"{LOGS}/spring-{{variant}}.log",
     benchmark:
-        "logs/benchmarks/spring-{variant}.tsv"
+        f"{LOGS}/benchmarks/spring-{{variant}}.tsv"
     conda:
         ENVIRONMENT
     params:
         folder=lambda wildcards, output: str(Path(output.summary).parent),
+        code=lambda wildcards: VARIANT_CODE[wildcards.variant],
     message:
         "Running the spring model {wildcards.variant}"
     shell:

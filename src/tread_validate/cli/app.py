@@ -40,6 +40,7 @@ VERBS = {
     "report": "report",
     "check": "check",
     "accept": "accept",
+    "verdict": "verdict",
     "ladder": "ladder",
     "map": "map",
     "fit-prony": "fit_prony",

@@ -9,8 +9,12 @@ import typer
 
 
 def command(
-    tables: Annotated[Path, typer.Argument(help="folder of the comparison's tables")] = Path("results/tables"),
-    baseline: Annotated[Path, typer.Option("--baseline", help="folder of the baseline")] = Path("reports/baseline"),
+    tables: Annotated[
+        Path | None, typer.Argument(help="folder of the comparison's tables [default: the only one in results]")
+    ] = None,
+    baseline: Annotated[
+        Path | None, typer.Option("--baseline", help="folder of the baseline [default: the study's, in reports]")
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="delta table (CSV); delta.csv beside the tables if left out")
     ] = None,
@@ -23,16 +27,20 @@ def command(
 
     Flipped verdicts come first, then what they rest on, then what moved, then what follows from that.
 
-    Example: tread-validate check results/tables --junit check.xml --markdown check.md
+    Example: tread-validate check results/liu2010/tables --junit check.xml --markdown check.md
     """
     from ..compare.baseline.delta import check_tables
     from ..compare.baseline.movement import movements
     from ..compare.baseline.output import delta_csv, delta_junit, delta_lines, delta_markdown, summary
     from ..compare.baseline.store import load_baseline, same_study
+    from ..compare.binding import todays_tables
     from ..errors import CheckFailedError
     from ..files import write_text
+    from ..workspace import Workspace, only_tables
 
-    accepted = load_baseline(baseline)
+    tables = tables or only_tables()
+    facts = todays_tables(tables)
+    accepted = load_baseline(baseline or Workspace(facts["study"]).baseline)
     same_study(accepted, tables)
     found = check_tables(accepted, tables)
     write_text(output or tables / "delta.csv", delta_csv(found))

@@ -14,9 +14,12 @@ def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
     case: Annotated[str | None, typer.Option("--case", help="id of one case (see `tread-validate cases`)")] = None,
     every: Annotated[bool, typer.Option("--all", help="every case of the study")] = False,
-    output: Annotated[Path, typer.Option("-o", "--output", help="folder; each case gets one of its own in it")] = Path(
-        "fe_inputs"
-    ),
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", help="folder; each case gets one of its own in it [default: the study's, in fe_inputs]"
+        ),
+    ] = None,
     element_size: Annotated[
         float | None,
         typer.Option(
@@ -38,16 +41,18 @@ def command(
     Speed, interference, creep, temperature and friction constants stand at the top of ID.inp and can be changed there;
     mesh, sets and surfaces are in mesh-BLOCK-DIGEST.inp, a belt's velocity tables in motion-PATH-DIGEST.inp.
 
-    Example: tread-validate deck config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm -o fe_inputs
+    Example: tread-validate deck config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm
     """
     from .. import deck
     from ..errors import InputError
     from ..study import load_study, with_mesh
     from ..units import IN_MS
+    from ..workspace import Workspace
 
     if (case is None) == (not every):
         raise InputError("deck", "both --case and --all" if every else "neither --case nor --all", "one of the two")
     loaded = load_study(study)
+    output = output or Workspace(loaded.model.name).decks
     cases = (loaded.case(case),) if case is not None else loaded.cases()
     if any(one.creep_ratio is None for one in cases):
         from ..spring import resolve_creep

@@ -11,12 +11,14 @@ import typer
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
     references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
-    decks: Annotated[Path, typer.Option("--decks", help="folder of the generated decks")] = Path("fe_inputs"),
+    decks: Annotated[
+        Path | None, typer.Option("--decks", help="folder of the generated decks [default: the study's, in fe_inputs]")
+    ] = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="write the rows to this file (CSV)")] = None,
 ) -> None:
     """Compare the reference runs of several engines (embedded, abaqus, calculix) case by case.
 
-    Example: tread-validate engines config/study.yaml -o results/tables/engines.csv
+    Example: tread-validate engines config/study.yaml -o engines.csv
     """
 
     from ..compare import MetricRow
@@ -26,11 +28,12 @@ def command(
     from ..files import write_text
     from ..spring import resolve_creep
     from ..study import load_study
+    from ..workspace import Workspace
 
     loaded = load_study(study)
     cases = tuple(resolve_creep(loaded.cases()))
     names = engines(references, loaded.model.engine)
-    runs = engine_runs(cases, references, decks, names)
+    runs = engine_runs(cases, references, decks or Workspace(loaded.model.name).decks, names)
     rows = engine_rows(cases, runs, names)
     for name in names:
         count = sum(runs[f"fe:{name}", case.case_id].history is not None for case in cases)

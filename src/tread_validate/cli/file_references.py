@@ -15,6 +15,9 @@ def command(
     engine: Annotated[
         str | None, typer.Option("--engine", help="refuse runs of any other engine; each is filed under its own")
     ] = None,
+    mesh: Annotated[
+        list[Path] | None, typer.Option("--mesh", help="result of mesh-error, to be filed; may be given again")
+    ] = None,
     study: Annotated[str, typer.Option("--study", help="name of the study, for the record")] = "",
     replace: Annotated[
         bool, typer.Option("--replace", help="replace filed runs of the same problem that differ beyond noise")
@@ -31,8 +34,11 @@ def command(
     from ..inp import deck_files
     from ..reference import FeStore
     from ..reference.filing import Run, drop_unused_blocks, file_run, read_run
+    from ..reference.mesh_errors import file_mesh_study
 
     store = FeStore(references)
+    for result in mesh or []:
+        typer.echo(f"filed: {file_mesh_study(store.root / 'mesh', result)}")
     runs = []
     for history in histories or []:
         run = read_run(history, deck_files(decks, history.stem), engine)

@@ -10,11 +10,14 @@ import typer
 
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="folder for tables and figures")] = Path(
-        "results/ladder"
-    ),
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="folder for tables and figures [default: the study's, in results]"),
+    ] = None,
     references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
-    decks: Annotated[Path, typer.Option("--decks", help="folder of the generated decks")] = Path("fe_inputs"),
+    decks: Annotated[
+        Path | None, typer.Option("--decks", help="folder of the generated decks [default: the study's, in fe_inputs]")
+    ] = None,
     samples: Annotated[
         int, typer.Option("--samples", min=8, max=65536, help="base sample of the Sobol indices, a power of two")
     ] = 256,
@@ -25,25 +28,30 @@ def command(
 ) -> None:
     """Hold every rung of the model ladder against the FE runs, and say what each effect is worth.
 
-    Example: tread-validate ladder config/study.yaml --decks fe_inputs -o results/ladder
+    Example: tread-validate ladder config/study.yaml
     """
 
     from ..errors import InputError
     from ..ladder.build import PARTS, Folders, build
     from ..provenance import commit, version
+    from ..source_code import code_digest
     from ..study import conditions_digest, load_study
+    from ..workspace import Workspace
     from ..yaml_text import write_yaml
 
     if samples & (samples - 1):
         raise InputError("--samples", samples, "a power of two")
-    folders = Folders(references, decks, output)
     loaded = load_study(study)
+    place = Workspace(loaded.model.name)
+    output = output or place.ladder
+    folders = Folders(references, decks or place.decks, output)
     tables = build(loaded, folders, typer.echo, samples, part or PARTS)
     record = {
         "study": loaded.model.name,
         "study_digest": conditions_digest(loaded.cases()),
         "version": version(),
         "commit": commit(),
+        "code": code_digest("ladder"),
         "sobol_base_sample": samples,
     }
     write_yaml(output / "record.yaml", record)

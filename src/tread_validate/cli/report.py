@@ -10,29 +10,40 @@ import typer
 
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
-    tables: Annotated[Path, typer.Option(help="folder of the comparison's tables")] = Path("results/tables"),
-    spring: Annotated[Path, typer.Option(help="folder of spring histories, <variant>/<case>.csv")] = Path(
-        "results/spring"
-    ),
+    tables: Annotated[
+        Path | None, typer.Option(help="folder of the comparison's tables [default: the study's, in results]")
+    ] = None,
+    spring: Annotated[
+        Path | None, typer.Option(help="folder of spring histories [default: the study's, in results]")
+    ] = None,
     references: Annotated[Path, typer.Option(help="the reference data package")] = Path("reference_data"),
-    decks: Annotated[Path, typer.Option(help="folder of decks, <case>/mesh.vtu")] = Path("fe_inputs"),
-    out: Annotated[Path, typer.Option("-o", "--out", help="where the report goes")] = Path("reports"),
+    decks: Annotated[Path | None, typer.Option(help="folder of decks [default: the study's, in fe_inputs]")] = None,
+    out: Annotated[
+        Path | None, typer.Option("-o", "--out", help="where the report goes [default: the study's, in reports]")
+    ] = None,
     delta: Annotated[
         Path | None,
-        typer.Option(help="delta table that `check` wrote [default: delta.csv beside the tables, if there]"),
+        typer.Option(help="delta table that `check` wrote of these tables"),
     ] = None,
     ladder: Annotated[
         Path | None,
-        typer.Option(help="folder of the model ladder's tables [default: ladder/ among the references]"),
+        typer.Option(help="folder of the model ladder's tables [default: ladder/<study> among the references]"),
     ] = None,
 ) -> None:
     """Write the report: index.html (one self-contained file), report.pdf, tables/ and figures/.
 
-    Example: tread-validate report config/study.yaml --tables results/tables -o reports
+    Example: tread-validate report config/study.yaml
     """
+    from ..compare.binding import todays_tables
     from ..report import build_report
+    from ..study import load_study
+    from ..workspace import Workspace
 
-    delta = delta or (tables / "delta.csv" if (tables / "delta.csv").is_file() else None)
-    ladder = ladder or references / "ladder"
+    loaded = load_study(study)
+    place = Workspace(loaded.model.name)
+    tables, spring = tables or place.tables, spring or place.spring
+    decks, out = decks or place.decks, out or place.reports
+    ladder = ladder or references / "ladder" / loaded.model.name
+    todays_tables(tables, loaded)
     build_report(study, tables, spring, references, decks, out, baseline_delta=delta, ladder_dir=ladder)
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

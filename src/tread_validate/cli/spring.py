@@ -21,7 +21,7 @@ def command(
 ) -> None:
     """Run the spring model for one case, or for all, and write force histories.
 
-    Example: tread-validate spring config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm -o results/spring/paper
+    Example: tread-validate spring config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm
     """
     from rich.console import Console
     from rich.progress import track
@@ -31,6 +31,7 @@ def command(
     from ..spring import resolve_creep, run, variants
     from ..spring.summary import summary_csv, summary_row
     from ..study import load_study
+    from ..workspace import Workspace
 
     if variant == "list":
         typer.echo("\n".join(f"{name}: {summary}" for name, summary in variants().items()))
@@ -41,7 +42,7 @@ def command(
         raise InputError("spring", "both --case and --all" if every else "neither --case nor --all", "one of the two")
     loaded = load_study(study)
     cases = loaded.cases() if every else tuple(loaded.case(name) for name in dict.fromkeys(case or ()))
-    target = output if output is not None else Path("results/spring") / variant
+    target = output if output is not None else Workspace(loaded.model.name).spring / variant
     one_file = target.suffix == ".csv"
     if one_file and len(cases) != 1:
         raise InputError("--output", target, f"a folder for {len(cases)} cases")

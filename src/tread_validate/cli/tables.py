@@ -12,10 +12,16 @@ from .options import within
 
 def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
-    spring: Annotated[Path, typer.Option("--spring", help="folder of the spring runs")] = Path("results/spring"),
+    spring: Annotated[
+        Path | None, typer.Option("--spring", help="folder of the spring runs [default: the study's, in results]")
+    ] = None,
     references: Annotated[Path, typer.Option("--references", help="the reference folder")] = Path("reference_data"),
-    decks: Annotated[Path, typer.Option("--decks", help="folder of the generated decks")] = Path("fe_inputs"),
-    output: Annotated[Path, typer.Option("-o", "--output", help="folder for the tables")] = Path("results/tables"),
+    decks: Annotated[
+        Path | None, typer.Option("--decks", help="folder of the generated decks [default: the study's, in fe_inputs]")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="folder for the tables [default: the study's, in results]")
+    ] = None,
     exclude: Annotated[
         list[float] | None,
         typer.Option(
@@ -30,16 +36,20 @@ def command(
 ) -> None:
     """Compare every run with its reference and the study with the paper.
 
-    Example: tread-validate tables config/study.yaml --spring results/spring --decks fe_inputs -o results/tables
+    Example: tread-validate tables config/study.yaml
     """
     from ..compare import build_tables
     from ..compare.regression.line import EXCLUDED_INTERFERENCES
+    from ..study import load_study
+    from ..workspace import Workspace
 
+    place = Workspace(load_study(study).model.name)
+    spring, decks, output = spring or place.spring, decks or place.decks, output or place.tables
     left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)
     found = build_tables(study, spring, references, output, decks, left_out)
     for source in found.sources:
         runs = [run for (name, _), run in found.runs.items() if name == source]
-        current = sum(run.status == "current" for run in runs)
+        current = sum(run.history is not None for run in runs)
         typer.echo(f"{source}: {current} of {len(runs)} runs can be compared")
     told = [row for row in found.rows if row.verdict != "cannot tell"]
     agree = sum(row.verdict == "agrees" for row in told)

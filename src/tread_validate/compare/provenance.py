@@ -10,6 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ..provenance import commit, sha256_file, version
+from ..reference import ENGINE_PARTS
+from ..source_code import code_digest
+from ..spring.variants import code_digest as variant_code
 from ..study import Case, LoadedStudy
 from .regression.coefficients import SPEEDS_ASSUMED, ZERO_ASSUMED
 from .regression.line import REFERENCE_TEMPERATURE
@@ -30,6 +33,11 @@ def provenance(
         "version": version(),
         "study": study.model.name,
         "study_digest": study.digest,
+        "code": {
+            "compare": code_digest("compare"),
+            **{f"fe:{engine}": code_digest(part) for engine, part in ENGINE_PARTS.items()},
+            **{f"spring:{variant}": variant_code(variant) for variant in study.model.spring.variants},
+        },
         "packages": {name: metadata.version(name) for name in PACKAGES},
         "inputs": {_shown(path, study.root): sha256_file(path) for path in sorted(files) if path.is_file()},
         "sources": {

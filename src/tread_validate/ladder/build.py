@@ -12,6 +12,7 @@ from ..compare.tables import write_table
 from ..errors import InputError
 from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt
+from ..study.typical import path_kind, typical_cases
 from . import compatibility, effects, figures, pareto, published, sensitivity
 
 Table = list[dict[str, Any]]
@@ -79,8 +80,5 @@ def build(
 
 
 def representative(cases: Sequence[Case]) -> list[Case]:
-    """Return a belt case on the simplified profile at the published creep, and a rig case of middling conditions."""
-    belts = [case for case in cases if isinstance(case.path, SimplifiedBelt) and not case.free_rolling]
-    rigs = [case for case in cases if case.is_rig and case.block.shape == "rectangle"]
-    rigs.sort(key=lambda case: (case.temperature, abs(case.interference - 0.2e-3), abs(case.speed - 3.2)))
-    return [*belts[:1], *rigs[:1]]
+    """Return one typical case of every kind of path, chosen from the study by one rule; see `typical_cases`."""
+    return list(typical_cases(cases, path_kind))

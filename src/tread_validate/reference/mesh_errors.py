@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..provenance import sha256_text
 from ..source_code import UNKNOWN
 from ..study import Case
-from ..yaml_text import read_mapping
+from ..yaml_text import read_mapping, write_yaml
 
 SCHEMA = 2
 MESH_KEYS = ("element_size_mm", "layers", "refinement", "hourglass", "bulk_viscosity")
@@ -101,6 +102,19 @@ def read_mesh_study(path: Path) -> Mapping[str, Any]:
         if not isinstance(data.get(key), dict):
             raise InputError(f"{path}: {key}", type(data.get(key)).__name__, "a mapping, as `mesh-error` writes it")
     return data
+
+
+def file_mesh_study(folder: Path, result: Path) -> Path:
+    """File the result of a mesh study and return its place; it takes that of the one that held for the same runs."""
+    data = read_mesh_study(result)
+    applies = data["applies_to"]
+    for file in folder.glob("*.yaml"):
+        if read_mesh_study(file)["applies_to"] == applies:
+            file.unlink()
+    key = sha256_text(repr(sorted(applies.items(), key=str)))[:8]
+    target = folder / f"{applies['engine']}-{applies['path_kind']}-{key}.yaml"
+    write_yaml(target, dict(data))
+    return target
 
 
 def is_error(value: Any) -> bool:

@@ -11,6 +11,7 @@ import pandas as pd
 
 from ..errors import InputError
 from ..reference import FeStore
+from ..source_code import code_digest
 from ..study import LoadedStudy, conditions_digest
 from ..units import IN_MS
 from ..yaml_text import read_yaml
@@ -49,6 +50,8 @@ def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: 
     ]
     if record["study_digest"] != conditions_digest(study.cases()):
         items.append(Paragraph("Stale: made when the study had other conditions. Make the ladder anew."))
+    if record.get("code") != code_digest("ladder"):
+        items.append(Paragraph("Made by other code than today's. Make the ladder anew: make ladder."))
     tables = {name: read_table(folder / f"{name}.csv", ()) for name, _ in TABLES if (folder / f"{name}.csv").is_file()}
     figures = []
     for name, title, caption in FIGURES:

@@ -11,7 +11,7 @@ from ..tables import TABLES, Delta, Outcome, Row, cell, read_rows
 from ..tables.row import Column
 from .store import Baseline, Cells, todays_noise
 
-BROKEN = ("stale", "corrupt")
+BROKEN = ("stale", "other_code", "unbound", "corrupt")
 SLACK = 1e-9
 
 # the coupled springs stop iterating within a tolerance, and another processor ends elsewhere in it: measured, up to 1.8
