@@ -89,7 +89,9 @@ def test_lost_file_is_made_again_and_the_tables_are_the_same(finished):
     (finished / "results" / "liu2010" / "tables" / "errors.csv").unlink()
     done = snakemake(finished, "--until", "tables")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert {path.name: path.read_bytes() for path in (finished / "results" / "liu2010" / "tables").glob("*.csv")} == tables
+    assert {
+        path.name: path.read_bytes() for path in (finished / "results" / "liu2010" / "tables").glob("*.csv")
+    } == tables
 
 
 def test_snakemake_report_holds_page_and_pdf(finished, tmp_path):
