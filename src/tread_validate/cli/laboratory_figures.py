@@ -7,30 +7,27 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ..files import atomic_path
+from .. import plotting
 from ..friction import FrictionFit
 from ..geometry.trace import LevelledTrace
 from ..material import MaterialRoute
+from ..palette import BLACK, BLUE, GREEN, PURPLE, SKY, VERMILION
+from ..plotting import canvas, styled
 from ..reference.rig_passes import RigPasses
-from ..report.figures.style import styled
-from ..report.palette import BLACK, BLUE, GREEN, PURPLE, VERMILION
 from ..units import IN_UM, KPA, MM, MPA
 
 GREY = "#8c959f"
-COLOURS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, "#b07d00", "#56b4e9", GREY)
+COLOURS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, "#b07d00", SKY, GREY)
 
 
 def save(path: Path | str, size: tuple[float, float], paint: Callable[[Figure], None]) -> None:
-    """Draw with the report's look and write a PNG (or what the ending says), atomically."""
+    """Draw with the package's look and write a PNG (or what the ending says), atomically."""
     with styled():
-        figure = Figure(figsize=size, layout="constrained")
-        FigureCanvasAgg(figure)
+        figure = canvas(size)
         paint(figure)
-        with atomic_path(path) as temporary:
-            figure.savefig(temporary, dpi=150)
+        plotting.save(figure, path)
 
 
 def material(route: MaterialRoute, figure: Figure, mark: str = "") -> None:

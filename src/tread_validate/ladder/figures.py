@@ -6,38 +6,29 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from ..files import atomic_path
+from ..palette import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
+from ..plotting import canvas, note, panel, save, styled
 
-# Okabe and Ito's colours, told apart by marker as well
+# told apart by marker as well
 STYLES = {
-    "paper": ("#0072B2", "o"),
-    "bonded_theory": ("#E69F00", "v"),
-    "bonded": ("#D55E00", "^"),
-    "coupled_coarse": ("#CC79A7", "s"),
-    "coupled": ("#009E73", "D"),
-    "fe": ("#000000", "P"),
+    "paper": (BLUE, "o"),
+    "bonded_theory": (ORANGE, "v"),
+    "bonded": (VERMILION, "^"),
+    "coupled_coarse": (PURPLE, "s"),
+    "coupled": (GREEN, "D"),
+    "fe": (BLACK, "P"),
 }
-RC: dict[Any, Any] = {
-    "font.family": "DejaVu Sans", "font.size": 9.0, "axes.titlesize": 9.0, "axes.spines.top": False,
-    "axes.spines.right": False, "legend.frameon": False, "legend.fontsize": 7.5, "axes.grid": True,
-    "grid.color": "#e6e9ec", "grid.linewidth": 0.6, "axes.axisbelow": True, "svg.fonttype": "path",
-    "svg.hashsalt": "tread_validate",
-}  # fmt: skip
 Rows = Sequence[Mapping[str, Any]]
+ROOM = 0.96  # of the height, under the note
 
 
 def pareto_figure(rows: Rows, meshes: Rows, path: Path) -> None:
     """Draw the error of the peak normal force and the score of the tangential force against the time of a pass."""
-    with _styled():
-        figure = Figure(figsize=(8.6, 4.2), layout="constrained")
-        FigureCanvasAgg(figure)
-        _leave_room(figure)
+    with styled():
+        figure = canvas((8.6, 4.2))
         left, right = figure.subplots(1, 2)
         for row in rows:
             error = row["mean_abs_peak_normal_force_error"]
@@ -74,20 +65,18 @@ def sobol_figure(rows: Rows, path: Path) -> None:
     panels = list(dict.fromkeys((row["run"], row["quantity"]) for row in rows))
     if not panels:
         return
-    with _styled():
+    with styled():
         columns = min(2, len(panels))
         lines = -(-len(panels) // columns)
-        figure = Figure(figsize=(4.6 * columns, 0.5 + 2.6 * lines), layout="constrained")
-        FigureCanvasAgg(figure)
-        _leave_room(figure)
+        figure = canvas((4.6 * columns, 0.5 + 2.6 * lines))
         for index, (run, quantity) in enumerate(panels):
             own = sorted(
                 (row for row in rows if (row["run"], row["quantity"]) == (run, quantity)), key=lambda row: row["total"]
             )
             axes: Axes = figure.add_subplot(lines, columns, index + 1)
             names = [row["input"] for row in own]
-            axes.barh(names, [row["total"] for row in own], color="#56B4E9", height=0.75, label="total")
-            axes.barh(names, [max(row["first_order"], 0.0) for row in own], color="#0072B2", height=0.35,
+            axes.barh(names, [row["total"] for row in own], color=SKY, height=0.75, label="total")
+            axes.barh(names, [max(row["first_order"], 0.0) for row in own], color=BLUE, height=0.35,
                       label="first order")  # fmt: skip
             scale, unit = (100.0, "%") if own[0]["unit"] == "1" else (1.0, own[0]["unit"])
             low, high = scale * own[0]["p05"], scale * own[0]["p95"]
@@ -103,13 +92,13 @@ def sobol_figure(rows: Rows, path: Path) -> None:
 def compatibility_figure(rows: Rows, path: Path) -> None:
     """Draw a_v against a_theta for the families of spectra, with the published pair and its spread."""
     look = {
-        "published": ("#000000", "s"), "power law": ("#0072B2", "o"), "the study's compound": ("#009E73", "D"),
-        "one bell": ("#E69F00", "^"), "any spectrum >= 0": ("#D55E00", "X"),
+        "published": (BLACK, "s"), "power law": (BLUE, "o"), "the study's compound": (GREEN, "D"),
+        "one bell": (ORANGE, "^"), "any spectrum >= 0": (VERMILION, "X"),
     }  # fmt: skip
     if not rows:
         return
-    with _styled():
-        figure, axes = _panel()
+    with styled():
+        figure, axes = panel((5.6, 4.2))
         seen: set[str] = set()
         for row in rows:
             color, marker = look[row["family"]]
@@ -122,38 +111,16 @@ def compatibility_figure(rows: Rows, path: Path) -> None:
         axes.set(xlabel="a_theta, % per degC", ylabel="a_v, % per m/s (bar: sd over the sets)")
         axes.set_title("Rate and temperature coefficients of linear compounds", loc="left")
         axes.legend()
-        figure.text(0.995,
-            0.997, "WLF constants of the paper; rig geometry with an assumed big wheel", ha="right",
-                    va="top", fontsize=6.0, color="#6b5200")  # fmt: skip
+        note(figure, "WLF constants of the paper; rig geometry with an assumed big wheel", ROOM)
         _save(figure, path)
-
-
-def _leave_room(figure: Figure) -> None:
-    engine = figure.get_layout_engine()
-    assert isinstance(engine, ConstrainedLayoutEngine)
-    engine.set(rect=(0, 0, 1, 0.96))
 
 
 def _mark(figure: Figure, rows: Rows) -> None:
     """Print the assumed and synthetic inputs that the rows rest on."""
     names = sorted({name for row in rows for name in (row["assumed"] or "").split("; ") if name})
-    if names:
-        text = "rests on: " + ", ".join(names)
-        figure.text(0.995, 0.997, text, ha="right", va="top", fontsize=6.0, color="#6b5200")
-
-
-def _styled() -> Any:
-    return mpl.rc_context(RC)
-
-
-def _panel() -> tuple[Figure, Axes]:
-    figure = Figure(figsize=(5.6, 4.2), layout="constrained")
-    FigureCanvasAgg(figure)
-    _leave_room(figure)
-    return figure, figure.add_subplot()
+    note(figure, "rests on: " + ", ".join(names) if names else "", ROOM)
 
 
 def _save(figure: Figure, path: Path) -> None:
-    for suffix, metadata in ((".svg", {"Date": None, "Creator": None}), (".png", {"Software": None})):
-        with atomic_path(path.with_suffix(suffix)) as temporary:
-            figure.savefig(temporary, format=suffix[1:], dpi=150, metadata=metadata)
+    for suffix in (".svg", ".png"):
+        save(figure, path.with_suffix(suffix))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..compare.rig_peaks import rig_peaks
 from ..files import write_text
+from ..palette import looks
 from ..study import load_study
 from . import figures
 from .baseline import baseline_section
@@ -21,7 +22,6 @@ from .histories import HistoryStore, load_histories
 from .html import render
 from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
 from .marks import Marks
-from .palette import looks
 from .pdf import write_pdf
 from .results import ensemble_table
 from .route import route_items

@@ -8,11 +8,11 @@ from typing import Any
 
 from ..compare.quantities import HEADLINE
 from ..compare.tables import MetricRow
+from ..palette import Look
 from . import wording
 from .cases import CaseView, Facet, facets
 from .content import Widget
 from .marks import Marks
-from .palette import Look
 from .tables import Tables, pair_of, pairs_of
 
 SCATTER = (

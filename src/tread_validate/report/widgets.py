@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..history import History
+from ..palette import Look
 from . import wording
 from .cases import CaseView, factor_levels
 from .content import Mark, Widget
 from .histories import pack, samples_each
 from .marks import Marks, by_origin
-from .palette import Look
 from .tables import Tables
 
 # parts of a score that the browser leaves to the CSV tables

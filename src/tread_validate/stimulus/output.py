@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import one_line
-from ..files import atomic_path, write_text
+from ..files import write_text
 from ..units import IN_MS
 from .response import Response
 from .stimulus import Stimulus, amplitude
@@ -113,37 +113,35 @@ def write_summary(stimuli: Iterable[Stimulus], path: Path) -> None:
 
 def draw(stimuli: list[Stimulus], path: Path, assumed: str = "") -> None:
     """Draw the time signals of one revolution's first part and the spectra, block-passing frequencies marked."""
-    import matplotlib as mpl
+    from ..palette import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
+    from ..plotting import canvas, note, save, styled
 
-    mpl.use("Agg", force=True)
-    import matplotlib.pyplot as plt
-
-    colours = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-    figure, axes = plt.subplots(2, 2, figsize=(11, 6.2), constrained_layout=True)
-    shown = min(stimuli[0].period, 12.0 / max(stimuli[0].block_rates.values()))
-    for index, stimulus in enumerate(stimuli):
-        colour = colours[index % len(colours)]
-        part = stimulus.time <= shown
-        forces = (stimulus.normal_force, stimulus.tangential_force)
-        lines = (amplitude(stimulus.normal_lines), amplitude(stimulus.tangential_lines))
-        for row in (0, 1):
-            axes[row, 0].plot(
-                stimulus.time[part] * IN_MS, forces[row][part], color=colour, label=stimulus.label, lw=1.2
-            )
-            offset = (index - 0.5 * (len(stimuli) - 1)) * 0.27 / stimulus.period
-            axes[row, 1].vlines(stimulus.frequency[1:] + offset, 0, lines[row][1:], color=colour, lw=1.1)
-    for row, name in enumerate(("normal force, N", "tangential force, N")):
-        axes[row, 0].set(xlabel="time, ms", ylabel=name)
-        axes[row, 1].set(xlabel="frequency, Hz", ylabel=f"{name} (peak)", ylim=(0, None))
-        axes[row, 1].set_xlim(0, stimuli[0].frequency[-1])
-        _mark(axes[row, 1], stimuli[0])
-    axes[0, 0].legend(frameon=False, fontsize=8)
-    axes[0, 1].set_title("dotted: block-passing frequency and its harmonics", fontsize=9, loc="left")
-    if assumed:
-        figure.suptitle(one_line("rests on " + assumed, 150), fontsize=8, x=0.01, ha="left", color="#555555")
-    with atomic_path(path) as temporary:
-        figure.savefig(temporary, dpi=150, metadata={"Software": None})
-    plt.close(figure)
+    colours = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
+    with styled():
+        figure = canvas((11, 6.2))
+        axes = figure.subplots(2, 2)
+        shown = min(stimuli[0].period, 12.0 / max(stimuli[0].block_rates.values()))
+        for index, stimulus in enumerate(stimuli):
+            colour = colours[index % len(colours)]
+            part = stimulus.time <= shown
+            forces = (stimulus.normal_force, stimulus.tangential_force)
+            lines = (amplitude(stimulus.normal_lines), amplitude(stimulus.tangential_lines))
+            for row in (0, 1):
+                axes[row, 0].plot(
+                    stimulus.time[part] * IN_MS, forces[row][part], color=colour, label=stimulus.label, lw=1.2
+                )
+                offset = (index - 0.5 * (len(stimuli) - 1)) * 0.27 / stimulus.period
+                axes[row, 1].vlines(stimulus.frequency[1:] + offset, 0, lines[row][1:], color=colour, lw=1.1)
+        for row, name in enumerate(("normal force, N", "tangential force, N")):
+            axes[row, 0].set(xlabel="time, ms", ylabel=name)
+            axes[row, 1].set(xlabel="frequency, Hz", ylabel=f"{name} (peak)", ylim=(0, None))
+            axes[row, 1].set_xlim(0, stimuli[0].frequency[-1])
+            _mark(axes[row, 1], stimuli[0])
+        axes[0, 0].legend()
+        axes[0, 1].set_title("dotted: block-passing frequency and its harmonics", loc="left")
+        if assumed:
+            note(figure, one_line("rests on " + assumed, 150))
+        save(figure, path)
 
 
 def _mark(axis: object, stimulus: Stimulus) -> None:

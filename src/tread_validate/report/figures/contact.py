@@ -10,13 +10,14 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ...geometry import path_of
+from ...palette import BLACK, BLUE, GREY, ORANGE, VERMILION
+from ...plotting import HEIGHT, WIDTH
 from ...spring import face_at
 from ...study import Case
 from ...units import IN_MS, MM, MPA
 from ..content import Mark
-from ..palette import BLACK, BLUE, GREY, ORANGE, VERMILION
 from ..tables import read_table
-from .style import HEIGHT, WIDTH, Drawn, draw
+from .style import Drawn, draw
 
 FACE_COLUMNS = ("x_m", "y_m", "z_m", "pressure_Pa", "traction_x_Pa", "traction_z_Pa", "state")
 

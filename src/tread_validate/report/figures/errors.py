@@ -10,12 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from ...palette import Look
+from ...plotting import WIDTH
 from .. import wording
 from ..cases import CaseView, facets
 from ..content import Mark
-from ..palette import Look
 from ..tables import Tables, pair_of, pairs_of
-from .style import WIDTH, Drawn, draw
+from .style import Drawn, draw
 
 RAMP = LinearSegmentedColormap.from_list("error", ["#2f7fb5", "#ffffff", "#d9662b"])
 

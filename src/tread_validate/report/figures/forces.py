@@ -9,12 +9,12 @@ from matplotlib.axes import Axes
 
 from ...compare.rig_peaks import RigPeak
 from ...history import History
+from ...palette import BLUE, GREEN, VERMILION, Look
 from ...units import IN_MS
 from .. import wording
 from ..cases import CaseView
 from ..content import Mark
 from ..histories import thin
-from ..palette import BLUE, GREEN, VERMILION, Look
 from ..tables import Tables
 from .style import Drawn, draw
 

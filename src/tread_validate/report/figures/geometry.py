@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 from ...geometry import Path as BlockPath
 from ...geometry import path_of, read_belt_trace
 from ...geometry.trace_file import read_belt
+from ...palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
+from ...plotting import WIDTH
 from ...study import Case, MeasuredBelt, Rig
 from ...units import MM
 from ..content import Mark
-from ..palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
-from .style import WIDTH, Drawn, draw
+from .style import Drawn, draw
 
 REACH = 0.16  # m: how far on either side of the patch's middle the belt is drawn
 # corner numbers of the six faces of an 8-node brick

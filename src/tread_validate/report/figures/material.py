@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from ...friction import law
 from ...material import prony_series, surrogate_modulus
 from ...material.compound import compound_route
+from ...palette import BLACK, BLUE, GREEN, PURPLE, VERMILION
 from ...study import Compound, FractionalZener, Friction
 from ...units import MPA
 from ..content import Mark
-from ..palette import BLACK, BLUE, GREEN, PURPLE, VERMILION
 from .style import Drawn, draw
 
 PRESSURES = (0.08e6, 0.2e6, 0.4e6, 1.0e6)  # Pa

@@ -9,11 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...compare.tables import Coefficient
+from ...palette import BLACK, Look
+from ...plotting import HEIGHT, WIDTH
 from .. import wording
 from ..content import Mark
-from ..palette import BLACK, Look
 from ..tables import Tables
-from .style import HEIGHT, WIDTH, Drawn, draw
+from .style import Drawn, draw
 
 NAMES = {"a_v": "a_v, % per m/s", "a_theta": "a_θ, % per °C"}
 

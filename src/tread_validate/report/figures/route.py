@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 
 from ...geometry.trace import LevelledTrace
 from ...material.route import MaterialRoute
+from ...palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from ...units import MM, MPA
 from ..content import Mark
-from ..palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from .style import Drawn, draw
 
 COLORS = (BLUE, VERMILION, GREEN, ORANGE)

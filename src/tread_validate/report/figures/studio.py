@@ -11,12 +11,12 @@ import pandas as pd
 from ...compare.rig_peaks import RigPeak
 from ...geometry import Family
 from ...history import History
+from ...palette import Look
 from ...study import Case, LoadedStudy
 from .. import wording
 from ..cases import CaseView
 from ..content import Mark
 from ..marks import Marks
-from ..palette import Look
 from ..table1 import regression_sources
 from ..tables import Tables, pairs_of
 from . import contact, errors, forces, geometry, material, regressions
