@@ -27,6 +27,14 @@ def command(
     invert: Annotated[
         bool, typer.Option("--invert-tangential", help="the record counts force along the travel positive")
     ] = False,
+    calibration: Annotated[
+        float, number("--cell-percent", "percent", "95 % uncertainty of the load cell, of the reading")
+    ] = 0.5,
+    turning: Annotated[
+        float | None,
+        number("--cell-turns-from-deg", "angle_deg", "the cell turns with the wheel; at this angle it faces the road"),
+    ] = None,
+    backwards: Annotated[bool, typer.Option("--cell-turns-back", help="its tangential axis lags the wheel")] = False,
     case: Annotated[str, typer.Option("--case", help="id of the study's case that was measured")] = "",
     shape: Annotated[str, typer.Option("--shape", help="rectangle or parallelogram")] = "",
     temperature: Annotated[float | None, number("--temperature-degC", "temperature_degC", "of the rubber")] = None,
@@ -51,9 +59,10 @@ def command(
 
     from ..errors import InputError, one_line
     from ..reference.rig import CONDITIONS, write_rig
+    from ..reference.rig_axes import axle_fixed
     from ..reference.rig_passes import cut_passes
     from ..reference.rig_record import read_record
-    from ..units import MM
+    from ..units import DEG, MM
     from .laboratory import checked_origin, provenance
 
     channels = {}
@@ -67,6 +76,8 @@ def command(
         raise InputError("--name", one_line(files_name, 60), "letters, digits, - _ and .")
     data = read_record(record, channels)
     kind, told = checked_origin(record, origin or data.comments.get("origin", ""), source)
+    if turning is not None:
+        data = axle_fixed(data, turning * DEG, -1 if backwards else 1)
     if invert:
         data = replace(data, tangential_force=-data.tangential_force)
     passes = cut_passes(data, cutoff)
@@ -84,7 +95,7 @@ def command(
         )
     if said["shape"] not in ("rectangle", "parallelogram"):
         raise InputError(f"{record}: shape", one_line(said["shape"], 60), "rectangle or parallelogram")
-    written = write_rig(output, files_name, passes, kind, told, case, said, provenance(record))
+    written = write_rig(output, files_name, passes, kind, told, case, said, provenance(record), 0.01 * calibration)
     if figure is not None:
         from . import laboratory_figures as draw
 
@@ -98,12 +109,25 @@ def command(
         mark = ", synthetic" if any(reference.origin == "synthetic" for reference in references) else ""
         draw.save(peaks_figure, (4.7, 3.4), lambda canvas: draw.rig_peaks(peak_rows(references), canvas, mark))
     spread = passes.peak_normal_force
+    for line in data.understood:
+        typer.echo(f"read: {line}")
     typer.echo(f"{kind} data: {told}")
     typer.echo(
         f"{passes.count} passes at {passes.speed_rpm:.2f} rpm (speed changes by {100 * passes.speed_change:.2f} %), "
         f"low-pass {passes.cutoff:g} Hz, drift {passes.drift:.2f} N, noise {passes.noise:.3f} N"
     )
-    typer.echo(f"peak normal force: {spread.mean:.2f} N ({spread.least:.2f} to {spread.largest:.2f})")
+    lost = {
+        "trigger(s) missed, put in": passes.missed_triggers,
+        "false trigger(s) left out": passes.false_triggers,
+        "pass(es) left out for a gap": passes.passes_in_gaps,
+        "pass(es) without contact left out": passes.passes_without_contact,
+    }
+    told_of = [f"{count} {what}" for what, count in lost.items() if count]
+    if told_of:
+        typer.echo("; ".join(told_of))
+    half = passes.half_width(spread, 0.01 * calibration)
+    among = f"passes {spread.least:.2f} to {spread.largest:.2f}"
+    typer.echo(f"peak normal force: {spread.mean:.2f} +- {half:.2f} N (95 %; {among})")
     typer.echo("wrote " + ", ".join(str(path) for path in written))
 
 

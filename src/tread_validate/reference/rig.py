@@ -23,7 +23,8 @@ PEAK_COLUMNS = (
     "source", "case_id", *CONDITIONS, "passes", "peak_normal_force_N", "peak_normal_force_min_N",
     "peak_normal_force_max_N", "peak_normal_force_sd_N", "largest_tangential_force_N", "largest_tangential_force_min_N",
     "largest_tangential_force_max_N", "least_tangential_force_N", "least_tangential_force_min_N",
-    "least_tangential_force_max_N",
+    "least_tangential_force_max_N", "peak_normal_force_half_width_95_N", "largest_tangential_force_half_width_95_N",
+    "least_tangential_force_half_width_95_N",
 )  # fmt: skip
 
 
@@ -68,13 +69,16 @@ def passes_csv(passes: RigPasses) -> str:
     return ",".join(names) + "\n" + text.getvalue()
 
 
-def peak_row(passes: RigPasses, source: str, case_id: str, conditions: Mapping[str, str | float]) -> dict[str, Any]:
-    """Return the peak table's row of one record: conditions, then mean, least and largest over the passes."""
+def peak_row(
+    passes: RigPasses, source: str, case_id: str, conditions: Mapping[str, str | float], calibration: float = 0.0
+) -> dict[str, Any]:
+    """Return the peak table's row of one record: conditions, then mean, extremes over the passes, 95 % half-width."""
     row: dict[str, Any] = {"source": source, "case_id": case_id, **conditions, "passes": passes.count}
 
     def add(name: str, spread: Spread) -> None:
         row[f"{name}_N"] = round(spread.mean, 3)
         row[f"{name}_min_N"], row[f"{name}_max_N"] = round(spread.least, 3), round(spread.largest, 3)
+        row[f"{name}_half_width_95_N"] = round(passes.half_width(spread, calibration), 3)
 
     add("peak_normal_force", passes.peak_normal_force)
     row["peak_normal_force_sd_N"] = round(passes.peak_normal_force.deviation, 3)
@@ -110,6 +114,7 @@ def write_rig(
     case_id: str,
     conditions: Mapping[str, str | float],
     provenance: Mapping[str, str],
+    calibration: float = 0.0,
 ) -> tuple[Path, ...]:
     """Write ``<name>.csv`` (mean history), ``<name>-passes.csv``, ``<name>.yaml``; renew the folder's ``peaks.csv``."""
     base = Path(folder)
@@ -117,7 +122,7 @@ def write_rig(
     head = {"case_id": case_id, "producer": "rig", "origin": origin, **provenance}
     mean_history(passes, head).write_csv(files[0])
     write_text(files[1], passes_csv(passes))
-    row = peak_row(passes, "rig", case_id, conditions)
+    row = peak_row(passes, "rig", case_id, conditions, calibration)
     lines = [
         f"name: {name}",
         f"origin: {origin}",
@@ -134,6 +139,11 @@ def write_rig(
         "drift: 'straight line through the free running of each pass, taken off'",
         f"drift_range_N: {passes.drift:.3f}",
         f"noise_N: {passes.noise:.4f}",
+        f"missed_triggers: {passes.missed_triggers}",
+        f"false_triggers: {passes.false_triggers}",
+        f"passes_in_gaps: {passes.passes_in_gaps}",
+        f"passes_without_contact: {passes.passes_without_contact}",
+        f"calibration_95_percent: {100 * calibration:g}",
         f"contact_duration_s: {passes.contact_duration:.6f}",
         "peaks:",
         *(f"  {key}: {value}" for key, value in row.items() if key.endswith("_N")),

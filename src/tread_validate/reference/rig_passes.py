@@ -7,20 +7,24 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
+from scipy.stats import t as student
 
 from ..errors import InputError
 from ..units import RPM
+from .rig_marks import revolution_marks
 from .rig_record import RigRecord
 
 Array = NDArray[np.float64]
 
 CUTOFF = 1000.0  # Hz
 ORDER = 4
+MOST_FOR_SHAPE = 400  # revolutions that tell where the contact is
 CONTACT = 0.05  # of the peak: above it the block is in contact, when the baseline is looked for
 ONSET = 0.03, 0.3  # of the mean peak: the part of the rise that first touch is extrapolated from
 NOISE_LIMIT = 5.0  # standard deviations of the free running
 MARGIN = 0.5  # of the contact's duration, kept before and after it
 LARGEST_SPEED_CHANGE = 0.2
+TOUCHED = 0.5  # of the usual peak: a pass with less has missed the road
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,10 @@ class RigPasses:
         Range of the baseline that was taken off the normal force.
     raw_time, raw_normal_force : (m,) arrays
         First pass as recorded, on the same clock, for a picture.
+    missed_triggers, false_triggers : int
+        Put in between their neighbours; left out.
+    passes_in_gaps, passes_without_contact : int
+        Left out.
     """
 
     time: Array
@@ -74,6 +82,19 @@ class RigPasses:
     raw_time: Array
     raw_normal_force: Array
     source: str
+    missed_triggers: int = 0
+    false_triggers: int = 0
+    passes_in_gaps: int = 0
+    passes_without_contact: int = 0
+
+    def half_width(self, spread: Spread, calibration: float = 0.0) -> float:
+        """Return the 95 % half-width in N of a mean peak: scatter of the passes (Student), noise, cell.
+
+        `calibration` is the cell's own 95 % half-width, relative. The noise counts once, as a peak picked from noise
+        lies too high by up to about its deviation.
+        """
+        scatter = float(student.ppf(0.975, self.count - 1)) * spread.deviation / np.sqrt(self.count)
+        return float(np.sqrt(scatter**2 + self.noise**2 + (calibration * spread.mean) ** 2))
 
     @property
     def count(self) -> int:
@@ -109,18 +130,16 @@ def cut_passes(record: RigRecord, cutoff: float = CUTOFF, order: int = ORDER) ->
     """
     if not 0 < cutoff < 0.4 * record.sampling_rate:
         raise InputError("cut-off", f"{cutoff:g} Hz", f"0 to {0.4 * record.sampling_rate:g} Hz for this sampling rate")
-    marks = _marks(record)
+    marks, missed_triggers, false_triggers = revolution_marks(record)
     periods = np.diff(marks)
     period = float(periods.mean())
     change = float(np.max(np.abs(periods / period - 1.0)))
     if change > LARGEST_SPEED_CHANGE:
         raise InputError(record.source, f"a speed that changes by {100 * change:.0f} %", "a steady speed")
     normal = low_pass(record.normal_force, record.sampling_rate, cutoff, order)
-    tangential = low_pass(record.tangential_force, record.sampling_rate, cutoff, order)
     samples = int(np.floor(period * record.sampling_rate))
     phase = np.arange(samples) / samples
-    turns = _fold(normal, marks, phase, record.sampling_rate)
-    shape = np.median(turns, axis=0)
+    shape = np.median(_fold(normal, marks[:MOST_FOR_SHAPE], phase, record.sampling_rate), axis=0)
     shape = shape - np.median(shape)
     centre = phase[int(np.argmax(shape))]
     # cut half a revolution from the contact
@@ -130,8 +149,18 @@ def cut_passes(record: RigRecord, cutoff: float = CUTOFF, order: int = ORDER) ->
     starts = starts[starts >= 0]
     if starts.size < 3:
         raise InputError(record.source, f"{max(starts.size - 1, 0)} whole pass(es)", "at least 2")
-    n_turns = _fold(normal, starts, phase, record.sampling_rate)
-    t_turns = _fold(tangential, starts, phase, record.sampling_rate)
+    whole = _without_gaps(record, starts)
+    n_turns = _chosen(_fold(normal, starts, phase, record.sampling_rate), whole)
+    size = normal.size
+    del normal  # a record of ten million samples is to fit into 1 GB
+    touched = _touched(n_turns)
+    n_turns = _chosen(n_turns, touched)
+    tangential = low_pass(record.tangential_force, record.sampling_rate, cutoff, order)
+    t_turns = _chosen(_chosen(_fold(tangential, starts, phase, record.sampling_rate), whole), touched)
+    del tangential
+    if n_turns.shape[0] < 2:
+        found = f"{n_turns.shape[0]} pass(es) without a gap and with a contact"
+        raise InputError(record.source, found, "at least 2")
     contact = _contact(n_turns, cutoff, period, record.source)
     n_level, drift = _free_of_drift(n_turns, phase, contact)
     t_level, _ = _free_of_drift(t_turns, phase, contact)
@@ -143,7 +172,8 @@ def cut_passes(record: RigRecord, cutoff: float = CUTOFF, order: int = ORDER) ->
     time = phase * period - touch
     duration = leave - touch
     kept = (time > -MARGIN * duration) & (time < (1.0 + MARGIN) * duration)
-    raw = (np.arange(record.normal_force.size) / record.sampling_rate) - starts[0]
+    first, last = (np.clip(np.array([starts[0], starts[1]]) * record.sampling_rate, 0, size)).astype(int)
+    raw = np.arange(first, last) / record.sampling_rate - starts[0]
     raw = raw * period / (starts[1] - starts[0]) - touch
     shown = (raw > -MARGIN * duration) & (raw < (1.0 + MARGIN) * duration)
     return RigPasses(
@@ -160,43 +190,45 @@ def cut_passes(record: RigRecord, cutoff: float = CUTOFF, order: int = ORDER) ->
         drift=drift,
         contact_duration=duration,
         raw_time=raw[shown],
-        raw_normal_force=record.normal_force[shown],
+        raw_normal_force=record.normal_force[first:last][shown],
         source=record.source,
+        missed_triggers=missed_triggers,
+        false_triggers=false_triggers,
+        passes_in_gaps=int(np.sum(~whole)),
+        passes_without_contact=int(np.sum(~touched)),
     )
 
 
-def _marks(record: RigRecord) -> Array:
-    """Return the times in s at which a revolution starts, to a fraction of a sample."""
-    rate = record.sampling_rate
-    if record.trigger is not None:
-        low, high = float(record.trigger.min()), float(record.trigger.max())
-        middle, tenth = 0.5 * (low + high), 0.1 * (high - low)
-        if high - low < 0.2:
-            raise InputError(record.source, f"a trigger between {low:.3g} and {high:.3g} V", "pulses of 0.2 V or more")
-        # +1 above the middle, -1 a tenth below it, in between whatever it was before: noise on a flank counts once
-        known = np.where(record.trigger >= middle, 1, np.where(record.trigger < middle - tenth, -1, 0))
-        last = np.maximum.accumulate(np.where(known != 0, np.arange(known.size), 0))
-        state = known[last]
-        rises = np.flatnonzero((state[:-1] < 0) & (state[1:] > 0))
-        before, after = record.trigger[rises], record.trigger[rises + 1]
-        found = (rises + (middle - before) / (after - before)) / rate
-    else:
-        assert record.wheel_angle is not None
-        angle = np.unwrap(record.wheel_angle)
-        if angle[-1] < angle[0]:
-            angle = -angle
-        whole = np.arange(np.ceil(angle[0] / (2 * np.pi)), np.floor(angle[-1] / (2 * np.pi)) + 1) * 2 * np.pi
-        found = np.interp(whole, np.maximum.accumulate(angle), np.arange(angle.size)) / rate
-    if found.size < 3:
-        raise InputError(record.source, f"{found.size} trigger(s)", "at least 3: two whole revolutions")
-    return found
+def _without_gaps(record: RigRecord, starts: Array) -> NDArray[np.bool_]:
+    """Return which revolutions were recorded throughout, (turns,)."""
+    if record.missing is None:
+        return np.ones(starts.size - 1, dtype=np.bool_)
+    lost = np.concatenate([[0], np.cumsum(record.missing)])
+    edges = np.clip((starts * record.sampling_rate).astype(np.int64), 0, lost.size - 1)
+    return np.asarray(lost[edges[1:]] == lost[edges[:-1]], dtype=np.bool_)
+
+
+def _chosen(turns: Array, rows: NDArray[np.bool_]) -> Array:
+    return turns if rows.all() else turns[rows]
+
+
+def _touched(turns: Array) -> NDArray[np.bool_]:
+    """Return in which revolutions the block met the road, (turns,): a peak of half the usual one or more."""
+    if not turns.size:
+        return np.ones(0, dtype=np.bool_)
+    peaks = turns.max(axis=1) - np.median(turns, axis=1)
+    return np.asarray(peaks >= TOUCHED * np.median(peaks), dtype=np.bool_)
 
 
 def _fold(signal: Array, marks: Array, phase: Array, rate: float) -> Array:
     """Return the signal of each revolution at equal phases, (revolutions, n)."""
-    times = marks[:-1, None] + np.diff(marks)[:, None] * phase[None, :]
-    folded = np.interp(times.ravel() * rate, np.arange(signal.size), signal)
-    return np.asarray(folded.reshape(times.shape), dtype=np.float64)
+    folded = np.empty((marks.size - 1, phase.size))
+    for k, (first, last) in enumerate(zip(marks[:-1] * rate, marks[1:] * rate, strict=True)):
+        place = first + (last - first) * phase
+        low = max(int(place[0]), 0)
+        high = min(int(place[-1]) + 2, signal.size)
+        folded[k] = np.interp(place, np.arange(low, high), signal[low:high])
+    return folded
 
 
 def _contact(turns: Array, cutoff: float, period: float, source: str) -> NDArray[np.bool_]:
@@ -222,8 +254,9 @@ def _free_of_drift(turns: Array, phase: Array, contact: NDArray[np.bool_]) -> tu
     """Return the passes less the straight line through their free running, and the range of those lines in N."""
     basis = np.column_stack([np.ones(phase.size), phase - 0.5])
     lines = np.linalg.lstsq(basis[~contact], turns[:, ~contact].T, rcond=None)[0]
-    baseline = (basis @ lines).T
-    return turns - baseline, float(np.ptp(baseline))
+    turns -= (basis @ lines).T
+    ends = basis[[0, -1]] @ lines
+    return turns, float(np.ptp(ends))
 
 
 def _touch(mean: Array, time: Array) -> tuple[float, float]:
