@@ -80,6 +80,8 @@ class Body:
         Places along the block at which the motion of the mount is given.
     half : bool
         Whether only z >= 0 is there.
+    mount_along : (n,) array, m
+        `along` at the mount: farther out than at the face where the walls have a draft.
     """
 
     nodes: Array
@@ -89,6 +91,7 @@ class Body:
     knots: Array
     layers: int
     half: bool
+    mount_along: Array
 
     @property
     def nodes_per_layer(self) -> int:
@@ -113,8 +116,8 @@ class Body:
     def mount_shapes(self) -> Array:
         """Return the (3 n, 2 k) displacement of the mount's nodes for unit displacement of each knot."""
         n, k = self.along.size, self.knots.size
-        cell = np.clip(np.searchsorted(self.knots, self.along, side="right") - 1, 0, k - 2)
-        weight = (self.along - self.knots[cell]) / (self.knots[cell + 1] - self.knots[cell])
+        cell = np.clip(np.searchsorted(self.knots, self.mount_along, side="right") - 1, 0, k - 2)
+        weight = (self.mount_along - self.knots[cell]) / (self.knots[cell + 1] - self.knots[cell])
         shapes = np.zeros((n, 3, 2, k))
         for component in (0, 1):
             shapes[np.arange(n), component, component, cell] = 1.0 - weight
@@ -161,33 +164,75 @@ class FreeShape:
 
 
 def make_body(block: Block, shape: FreeShape, settings: BodySettings) -> Body:
-    """Divide `block` into bricks; `InputError` for a body too coarse to have an inside."""
+    """Divide `block` into bricks; a layer ends at the bottom of every sipe.
+
+    Raises `InputError` for a body too coarse to have an inside, and for a block that is a mesh file: this model makes
+    its own mesh in layers.
+    """
+    if block.mesh is not None:
+        raise InputError(
+            "block", f"mesh file {block.mesh}", "a block given by its dimensions: this model meshes its own"
+        )
     size = settings.face_size
     length, width, height = block.length_mm * MM, block.width_mm * MM, block.height_mm * MM
     half = block.shape == "rectangle"
     if settings.layers < 2 or length / size < 2.5 or (not settings.across and width / size < 2.5):
         raise InputError("face size", f"{size / MM:g} mm, {settings.layers} layers", "a mesh with nodes inside")
-    distance, rubber = _columns(block, size)
+    distance, opened = _columns(block, size)
     across = _across(width, half, settings)
-    ratio = settings.refinement ** (1.0 / (settings.layers - 1))
-    level = np.concatenate([[0.0], np.cumsum(ratio ** np.arange(settings.layers))])
-    level /= level[-1]
+    level = _levels(block, settings)
 
     # s grows against travel; the middle of the block is at x = 0
     z, s = (a.ravel() for a in np.meshgrid(across, distance, indexing="ij"))
     along = 0.5 * length - s - z * np.tan(block.skew_deg * DEG)
     order = np.lexsort((z, np.round(along, 12)))  # from the trailing end on, so that contact is a run of nodes
-    z, along = z[order], along[order]
-    face, mount = shape.face(along, height), shape.mount(along, height)
-    nodes = np.concatenate([np.column_stack([(1.0 - f) * face + f * mount, z]) for f in level])
-    count = along.size
-    quads, quad_area = _quads(across, distance, rubber)
-    quads = np.argsort(order)[quads]
-    elements = np.concatenate([_bricks(quads + k * count, count) for k in range(settings.layers)])
+    places, layers = [], []
+    for f in level:
+        grown = f * height * np.tan(block.draft_deg * DEG)
+        wide = z * (1.0 + 2.0 * grown / width)
+        place = (0.5 * length - _outward(s, distance, opened, grown) - wide * np.tan(block.skew_deg * DEG))[order]
+        face, mount = shape.face(place, height), shape.mount(place, height)
+        places.append(place)
+        layers.append(np.column_stack([(1.0 - f) * face + f * mount, wide[order]]))
+    along, mount_along = places[0], places[-1]
+    count, numbers = along.size, np.argsort(order)
+    elements = [
+        _bricks(numbers[_quads(across, distance, opened < 0.5 * (level[k] + level[k + 1]))[0]] + k * count, count)
+        for k in range(settings.layers)
+    ]
+    quads, quad_area = _quads(across, distance, opened == 0.0)
     area = np.zeros(count)
-    np.add.at(area, quads.ravel(), np.repeat(0.25 * quad_area, 4))
-    knots = np.linspace(along.min(), along.max(), max(3, round(np.ptp(along) / size) + 1))
-    return Body(nodes, elements, along, area, knots, settings.layers, half)
+    np.add.at(area, numbers[quads].ravel(), np.repeat(0.25 * quad_area, 4))
+    ends = min(along.min(), mount_along.min()), max(along.max(), mount_along.max())
+    knots = np.linspace(*ends, max(3, round((ends[1] - ends[0]) / size) + 1))
+    return Body(
+        np.concatenate(layers), np.concatenate(elements), along, area, knots, settings.layers, half, mount_along
+    )
+
+
+def _levels(block: Block, settings: BodySettings) -> Array:
+    """Return the height fractions of the layers' ends; the one nearest to the depth of a sipe is moved there."""
+    ratio = settings.refinement ** (1.0 / (settings.layers - 1))
+    level = np.concatenate([[0.0], np.cumsum(ratio ** np.arange(settings.layers))])
+    level /= level[-1]
+    for depth in sorted({sipe.depth_mm for sipe in block.sipes if sipe.depth_mm is not None}):
+        nearest = 1 + int(np.argmin(np.abs(level[1:-1] - depth / block.height_mm)))
+        level[nearest] = depth / block.height_mm
+    if np.any(np.diff(level) <= 0.0):
+        raise InputError("layers", settings.layers, "enough layers to end one at the depth of every sipe")
+    return np.asarray(level, dtype=np.float64)
+
+
+def _outward(s: Array, distance: Array, opened: Array, grown: float) -> Array:
+    """Return `s` with the rubber at either end stretched outward by `grown` (m): half the block without sipes."""
+    if grown == 0.0:
+        return s
+    gaps = np.flatnonzero(opened > 0.0)
+    low = distance[gaps[0]] if gaps.size else 0.5 * distance[-1]
+    high = distance[gaps[-1] + 1] if gaps.size else 0.5 * distance[-1]
+    lower = np.clip((low - s) / max(low, 1e-12), 0.0, None)
+    upper = np.clip((s - high) / max(distance[-1] - high, 1e-12), 0.0, None)
+    return np.asarray(s + grown * (upper - lower), dtype=np.float64)
 
 
 def _across(width: float, half: bool, settings: BodySettings) -> Array:
@@ -201,22 +246,25 @@ def _across(width: float, half: bool, settings: BodySettings) -> Array:
     return place if half else np.concatenate([-place[:0:-1], place])
 
 
-def _columns(block: Block, size: float) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the distances of the node columns from the leading end, and which spaces between them hold rubber."""
-    edges, solid = [0.0], []
+def _columns(block: Block, size: float) -> tuple[Array, Array]:
+    """Return the distances of the node columns from the leading end, and up to which height fraction they are open.
+
+    One value a space between columns: 0 rubber, 1 a sipe through the whole height.
+    """
+    edges, depths = [0.0], []
     for sipe in block.sipes:
         edges += [sipe.position_mm * MM, (sipe.position_mm + sipe.width_mm) * MM]
-        solid += [True, False]
+        depths += [0.0, 1.0 if sipe.depth_mm is None else sipe.depth_mm / block.height_mm]
     edges.append(block.length_mm * MM)
-    solid.append(True)
-    distance, rubber = [0.0], []
-    for begin, end, filled in zip(edges[:-1], edges[1:], solid, strict=True):
+    depths.append(0.0)
+    distance, opened = [0.0], []
+    for begin, end, depth in zip(edges[:-1], edges[1:], depths, strict=True):
         if end - begin < 1e-9:
             continue
-        parts = max(1, round((end - begin) / size)) if filled else 1
+        parts = 1 if depth > 0.0 else max(1, round((end - begin) / size))
         distance += list(begin + (end - begin) * np.arange(1, parts + 1) / parts)
-        rubber += [filled] * parts
-    return np.array(distance), np.array(rubber)
+        opened += [depth] * parts
+    return np.array(distance), np.array(opened)
 
 
 def _quads(across: Array, distance: Array, rubber: NDArray[np.bool_]) -> tuple[Integers, Array]:
