@@ -15,7 +15,7 @@ from .. import __version__
 from ..errors import InputError
 from ..files import atomic_path, write_text
 from ..friction import law
-from ..geometry import Path, TabulatedLine, path_of
+from ..geometry import Path, path_of
 from ..study import Case
 from ..units import DECK_LENGTH, DECK_UNITS
 from . import sections
@@ -174,24 +174,9 @@ def _motion(case: Case, mesh: BlockMesh, path: Path, pass_time: float) -> tuple[
     """Return where the block starts, and the velocity tables of its mount; none on the rig, where the ring moves it."""
     if case.path.mount_is_rigid:
         return place(mesh, path, float(path.line.curvature(0.0)) / path.line.speed_ratio), []
-    curvature = _stress_free_curvature(case, path)
+    curvature = 0.0 if case.block.mounting == "flat" else path.block_curvature()
     rows = np.unique(sections.mount_place(mesh))
     return place(mesh, path, curvature), mount_tables(path, rows, pass_time, curvature)
-
-
-def _stress_free_curvature(case: Case, path: Path) -> float:
-    """Return the curvature (1/m) of the mount of the stress-free block on the belt.
-
-    A flat block has none. A conforming one has that of the belt where the block first touches; between the arcs it
-    is flattened.
-    """
-    if case.block.mounting == "flat":
-        return 0.0
-    middle = path.first_touch_arc - 0.5 * path.columns.extent
-    if isinstance(path.line, TabulatedLine):
-        arcs = path.first_touch_arc - np.linspace(0.0, path.columns.extent, 101)
-        return float(np.mean(path.line.curvature(arcs)))
-    return float(path.line.curvature(middle))
 
 
 def _opening(case: Case, form: Form, inputs: Inputs) -> list[str]:

@@ -50,6 +50,8 @@ class LawForm:
     fortran : str
         The function ``fricmu(nProps, props, press, speed)`` in fixed form, with its comments: the kernel's arithmetic,
         written a second time and tested against it.
+    proportional : int
+        How many of the leading constants the coefficient is proportional to, all together; a table is so whole.
     limit : str
         ``static`` or ``kinetic``: the coefficient that stands for the law where only one can be given.
     """
@@ -59,6 +61,7 @@ class LawForm:
     units: Mapping[str, str]
     kernel: Kernel
     fortran: str
+    proportional: int
     limit: Literal["static", "kinetic"] = "static"
 
 

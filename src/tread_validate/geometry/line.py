@@ -37,6 +37,10 @@ class MountLine(Protocol):
         """Speed of the mount along its line over the arc rate (below 1 on the rig's ring)."""
 
     @property
+    def ring_radius(self) -> float | None:
+        """Radius of the rigid ring that the mount is, m; None where each row of it follows the line."""
+
+    @property
     def corners(self) -> tuple[float, ...]:
         """Arcs at which the curvature jumps, m."""
 
@@ -52,6 +56,11 @@ class MountLine(Protocol):
 
 class _Tangential:
     """A line along which the mount moves, as every line of a rolling block is."""
+
+    @property
+    def ring_radius(self) -> float | None:
+        """None: each row of the mount follows the line."""
+        return None
 
     def rate(self: MountLine, arc: ArrayLike) -> tuple[Array, Array]:
         """Return d x / d arc and d y / d arc at the arcs."""
@@ -133,6 +142,11 @@ class WheelLine(_Tangential):
     def table(self) -> Array:
         """Not read for this kind of line; the compiled code takes a table for every kind."""
         return EMPTY_TABLE
+
+    @property
+    def ring_radius(self) -> float:
+        """Radius of the ring, m."""
+        return self.mount_radius
 
     @property
     def speed_ratio(self) -> float:

@@ -97,6 +97,15 @@ class Path:
         x = x + self.columns.x_offset(s)
         return x + height * np.sin(theta), y - height * np.cos(theta)
 
+    def block_curvature(self) -> float:
+        """Return the curvature (1/m) of the mount of a stress-free conforming block: that of its path at first touch.
+
+        The mean over the block's length, for a trace curves by a little more here and a little less there.
+        """
+        arcs = self.first_touch_arc - self.columns.arc_offset(np.linspace(0.0, self.columns.extent, 101))
+        curvature = self.line.curvature(arcs)
+        return float(curvature[0]) if np.ptp(curvature) == 0.0 else float(np.mean(curvature))
+
     def indentation(self, s: ArrayLike, t: ArrayLike) -> Array:
         """Return how deep the stress-free face would stand in the road, m; negative where it is clear of it."""
         return -self.road.gap(*self.free_face(s, t))

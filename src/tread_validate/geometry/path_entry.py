@@ -53,6 +53,17 @@ class Conditions(Protocol):
 
 
 @dataclass(frozen=True)
+class Uncertain:
+    """A key of a path that is assumed, with the range that it may lie in, for a sensitivity study."""
+
+    key: str
+    label: str
+    low: float
+    high: float
+    unit: str = "mm"
+
+
+@dataclass(frozen=True)
 class Sketch:
     """Curves that show a path, for a figure.
 
@@ -82,12 +93,15 @@ class PathEntry(Sourced, ABC):
         Whether the mount turns as one rigid ring; else each row of it follows the path.
     is_measured : bool
         Whether the path comes from a measured shape.
+    uncertain : tuple of Uncertain
+        Keys that the paper does not print, or that were read off a figure.
     """
 
     family: ClassVar[Family]
     rolls: ClassVar[bool] = True
     mount_is_rigid: ClassVar[bool] = False
     is_measured: ClassVar[bool] = False
+    uncertain: ClassVar[tuple[Uncertain, ...]] = ()
 
     kind: str
 

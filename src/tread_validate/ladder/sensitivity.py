@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
+from ..friction import FORMS
 from ..spring.block_pass import BlockPass, prepare
 from ..spring.creep import root_of
-from ..study import Case, Rig, SimplifiedBelt
+from ..study import Case
 from ..units import MM
 
 Array = NDArray[np.float64]
@@ -66,11 +66,11 @@ def _rate(block_pass: BlockPass, log_factor: float) -> BlockPass:
 
 def _friction(block_pass: BlockPass, factor: float) -> BlockPass:
     grip = block_pass.grip
-    if grip.code == 2:
-        return replace(block_pass, grip=grip._replace(table=np.ascontiguousarray(factor * grip.table)))
+    form = next(form for form in FORMS.values() if form.code == grip.code)
     parameters = grip.parameters.copy()
-    parameters[: 1 if grip.code == 0 else 2] *= factor
-    return replace(block_pass, grip=grip._replace(parameters=parameters))
+    parameters[: form.proportional] *= factor
+    table = np.ascontiguousarray(factor * grip.table)
+    return replace(block_pass, grip=grip._replace(parameters=parameters, table=table))
 
 
 def _static(block_pass: BlockPass, value: float) -> BlockPass:
@@ -118,17 +118,9 @@ def factors_of(case: Case) -> tuple[Factor, ...]:
         Factor("interference", 0.95 * depth, 1.05 * depth, "mm", _interference),
         Factor("temperature of the rubber", -5.0, 5.0, "degC from the nominal", _temperature),
     )
-    if isinstance(case.path, Rig):
-        wheel = Factor("big wheel's diameter", 600.0, 1600.0, "mm", _path(key="big_wheel_diameter_mm"))
-        skew = (Factor("skew angle", 20.0, 40.0, "deg", _skew),) if case.block.shape == "parallelogram" else ()
-        return (*common, wheel, *skew)
-    if isinstance(case.path, SimplifiedBelt):
-        return (
-            *common,
-            Factor("edge radius", 400.0, 600.0, "mm", _path(key="edge_radius_mm")),
-            Factor("patch length", 150.0, 190.0, "mm", _path(key="patch_length_mm")),
-        )
-    raise InputError(f"case {case.case_id}", case.path.kind, "a rig or a simplified belt")
+    path = [Factor(item.label, item.low, item.high, item.unit, _path(key=item.key)) for item in case.path.uncertain]
+    skew = (Factor("skew angle", 20.0, 40.0, "deg", _skew),) if case.block.shape == "parallelogram" else ()
+    return (*common, *path, *skew)
 
 
 @dataclass(frozen=True)

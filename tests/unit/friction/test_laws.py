@@ -11,7 +11,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from tread_validate.friction import ENTRIES, FORMS, Friction, FrictionData, law, power_law
+from tread_validate.friction import (
+    ENTRIES,
+    FORMS,
+    Friction,
+    FrictionData,
+    coulomb_law,
+    huemer_law,
+    law,
+    power_law,
+    table_law,
+)
 from tread_validate.friction.laws.power import fit_power
 
 SOURCED = {"origin": "assumed", "source": "for the test"}
@@ -91,3 +101,23 @@ def test_root_of_a_file_is_the_study_s(tmp_path: Path):
     table = entry(kind="table", file="table.csv")
     assert law(table, tmp_path).kinetic(1e5, 0.1) == pytest.approx(0.8)
     assert table.measurements(tmp_path).coefficient.size == 2
+
+
+@pytest.mark.parametrize(
+    "friction",
+    [
+        coulomb_law(0.5, 0.7),
+        huemer_law(0.8212, 0.1, 0.9, 10.0, 3.729, -4.495, 1.785),
+        power_law(0.8, 0.1, -0.1),
+        table_law(np.array([1e5, 4e5]), np.array([0.01, 1.0]), np.array([[1.0, 2.0], [0.5, 0.9]]), 0.9),
+    ],
+    ids=lambda law: law.kind,
+)
+def test_leading_constants_scale_the_coefficient(friction):
+    """1.25 times the constants (or the table) said to be proportional give 1.25 times the coefficient: rounding."""
+    values = list(friction.constants.values())
+    values[: friction.form.proportional] = [1.25 * value for value in values[: friction.form.proportional]]
+    scaled = replace(
+        friction, constants=dict(zip(friction.constants, values, strict=True)), table=1.25 * friction.table
+    )
+    assert scaled.kinetic(2e5, 0.3) == pytest.approx(1.25 * friction.kinetic(2e5, 0.3), rel=1e-13)

@@ -192,3 +192,14 @@ def test_missing_belt_file_is_refused(tmp_path: Path) -> None:
     """One line that names the file."""
     with pytest.raises(InputError, match="no such file"):
         read_belt_trace(tmp_path / "belt.yaml", "mid_top")
+
+
+def test_conforming_block_is_curved_as_its_path_where_it_first_touches(cases: dict[str, Case]) -> None:
+    """Simplified belt: 1/R of the leading arc, exactly. Trace: the mean over the block, between its extremes."""
+    simplified = path_of(cases[BELT])
+    assert simplified.block_curvature() == 1.0 / 0.5
+    trace = path_of(cases[TRACE])
+    arcs = trace.first_touch_arc - np.linspace(0.0, trace.columns.extent, 11)
+    assert trace.line.curvature(arcs).min() < trace.block_curvature() < trace.line.curvature(arcs).max()
+    assert path_of(cases[RIG]).line.ring_radius == pytest.approx(0.092, rel=1e-15)
+    assert simplified.line.ring_radius is None

@@ -38,7 +38,7 @@ c     neither pressure (MPa) nor slip speed (mm/s) enters
       end
 """
 
-COULOMB = LawForm("coulomb", 0, {"kinetic_coefficient": "1"}, coulomb_kernel, FORTRAN, limit="kinetic")
+COULOMB = LawForm("coulomb", 0, {"kinetic_coefficient": "1"}, coulomb_kernel, FORTRAN, 1, limit="kinetic")
 
 
 def _may_lack_static(schema: dict[str, Any]) -> None:

@@ -76,6 +76,7 @@ HUEMER = LawForm(
     },
     huemer_kernel,
     FORTRAN,
+    proportional=2,
 )
 
 

@@ -57,6 +57,7 @@ POWER = LawForm(
     },
     power_kernel,
     FORTRAN,
+    proportional=1,
 )
 
 

@@ -94,7 +94,7 @@ c
       end
 """
 
-TABLE = LawForm("table", 2, {}, table_kernel, FORTRAN)
+TABLE = LawForm("table", 2, {}, table_kernel, FORTRAN, 0)
 
 
 class FrictionTable(FrictionEntry):

@@ -44,6 +44,7 @@ class DownAndUp:
     left: float
     code: int = 3
     speed_ratio: float = 0.0
+    ring_radius: float | None = None
 
     @property
     def parameters(self) -> Array:

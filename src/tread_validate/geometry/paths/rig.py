@@ -15,7 +15,7 @@ from ..block import block_profile
 from ..columns import Columns
 from ..line import WheelLine
 from ..path import Path
-from ..path_entry import Conditions, Family, PathEntry, check_interference
+from ..path_entry import Conditions, Family, PathEntry, Uncertain, check_interference
 from ..road import Road
 
 
@@ -24,6 +24,9 @@ class Rig(PathEntry):
 
     family: ClassVar[Family] = "rig"
     mount_is_rigid: ClassVar[bool] = True
+    uncertain: ClassVar[tuple[Uncertain, ...]] = (
+        Uncertain("big_wheel_diameter_mm", "big wheel's diameter", 600.0, 1600.0),
+    )
 
     kind: Literal["rig"]
     small_wheel_diameter_mm: Positive = Field(200.0, description="over the tread surface, block and belt flush")

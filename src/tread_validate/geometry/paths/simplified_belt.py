@@ -10,13 +10,17 @@ from ...units import MM
 from ..belt import belt_path
 from ..line import ArcFlatArc
 from ..path import Path
-from ..path_entry import Conditions, Family, PathEntry, check_interference
+from ..path_entry import Conditions, Family, PathEntry, Uncertain, check_interference
 
 
 class SimplifiedBelt(PathEntry):
     """A flat contact patch between two arcs."""
 
     family: ClassVar[Family] = "belt"
+    uncertain: ClassVar[tuple[Uncertain, ...]] = (
+        Uncertain("edge_radius_mm", "edge radius", 400.0, 600.0),
+        Uncertain("patch_length_mm", "patch length", 150.0, 190.0),
+    )
 
     kind: Literal["simplified_belt"]
     patch_length_mm: Positive = 170.0

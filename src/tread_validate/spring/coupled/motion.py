@@ -20,9 +20,9 @@ def free_shape(path: Path, block: Block) -> FreeShape:
     block is straight and a conforming one has the curvature of the belt where the block first touches.
     """
     flat = block.mounting == "flat"
-    if path.line.code == 1:
-        return FreeShape(1.0 / float(path.line.parameters[1]), flat, path.line.speed_ratio)
-    return FreeShape() if flat else FreeShape(float(path.line.curvature(path.first_touch_arc)))
+    if path.line.ring_radius is not None:
+        return FreeShape(1.0 / path.line.ring_radius, flat, path.line.speed_ratio)
+    return FreeShape() if flat else FreeShape(path.block_curvature())
 
 
 def motion(path: Path, shape: FreeShape, body: Body, follow: Array, height: float, time: Array) -> Course:
@@ -33,7 +33,7 @@ def motion(path: Path, shape: FreeShape, body: Body, follow: Array, height: floa
     middle = 0.5 * path.columns.extent
     at = path.at(middle, time)
     origin = np.column_stack([at.x, at.y])
-    if path.line.code == 1:
+    if path.line.ring_radius is not None:
         return Course(time, np.asarray(at.theta), origin, body.face[None])
     cosine, sine = np.cos(at.theta)[:, None], np.sin(at.theta)[:, None]
     knots = path.at(middle - body.knots, time[:, None])
