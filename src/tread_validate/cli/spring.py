@@ -54,6 +54,8 @@ def command(
         history = run(one, variant)
         histories.append(history)
         rows.append(summary_row(one, history, variant))
+        if "caution" in history.provenance:
+            typer.echo(f"{one.case_id}: caution: {history.provenance['caution']}", err=True)
         if not every:
             typer.echo(
                 f"{one.case_id}: creep ratio {one.creep_ratio:.5f}, "

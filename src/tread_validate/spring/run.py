@@ -7,6 +7,7 @@ import numpy as np
 from ..history import History
 from ..provenance import commit, version
 from ..study import Case
+from .cautions import cautions
 from .creep import resolve_creep
 from .variants import code_digest, pass_of
 
@@ -23,7 +24,7 @@ def run(case: Case, variant: str = "paper") -> History:
     """
     (case,) = resolve_creep([case])
     assert case.creep_ratio is not None
-    block_pass = pass_of(case, variant)
+    block_pass, wary = pass_of(case, variant), cautions(case, variant)
     normal, shear, touching, slipping = block_pass.forces(case.creep_ratio).T
     area = float(np.max(touching))
     touches = touching > 1e-9 * area
@@ -45,5 +46,6 @@ def run(case: Case, variant: str = "paper") -> History:
             "creep_ratio": f"{case.creep_ratio:.9g}",
             "free_rolling": str(case.free_rolling).lower(),
             "assumed": "; ".join(case.assumed()) or "none",
+            **({"caution": "; ".join(wary)} if wary else {}),
         },
     )
