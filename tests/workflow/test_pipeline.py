@@ -128,10 +128,12 @@ def test_unknown_key_of_the_workflow_is_refused(workspace):
     assert "resluts" in done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("target", ["report", "reference", "mesh-study", "ladder"])
+@pytest.mark.parametrize("target", ["report", "check", "reference", "mesh-study", "ladder"])
 def test_make_target_reaches_its_rules(target, root):
     """`make -n` shows the command; the target's rule must come after the options, never as a config entry."""
     shown = subprocess.run(["make", "-n", target], cwd=root, capture_output=True, text=True, timeout=60, check=True)
     words = next(line for line in shown.stdout.splitlines() if "bin/snakemake" in line).split()
-    assert words[words.index("--config") + 2].startswith("--")
+    after = words[words.index("--config") + 1 :]
+    assert [word for word in after[:3] if "=" in word and not word.startswith("--")] == after[:2]
+    assert after[2].startswith("--")
     assert "locked.sh" in " ".join(words)

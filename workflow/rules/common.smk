@@ -44,6 +44,9 @@ REFERENCE_FILES = sorted(
     for path in Path(REFERENCES).glob("fe/**/*")
     if path.suffix in (".csv", ".yaml", ".txt")
 )
+# the mesh study: one typical case of every kind of path and block, on three meshes
+MESH_CASES = [case.case_id for case in typical_cases(STUDY_CASES, path_and_block)]
+MESHES = {"coarse": 2.0, "medium": 1.0, "fine": 0.5}
 BASELINE = Path(REPORTS) / "baseline" / "baseline.yaml"
 ENVIRONMENT = "../envs/tread_validate.yaml"
 REPORT_PAGE = f"{REPORTS}/index.html"
@@ -54,3 +57,18 @@ wildcard_constraints:
     case=r"[a-z0-9-]+",
     variant=r"[a-z][a-z0-9_]*",
     mesh=r"coarse|medium|fine",
+
+
+def stale_histories(wildcards):
+    listed = Path(checkpoints.stale_references.get().output[0]).read_text().split()
+    return expand(f"{RESULTS}/fe/{ENGINE}/{{case}}.csv", case=listed)
+
+
+def mesh_options(wildcards):
+    deck, factor = study.model.deck, MESHES[wildcards.mesh]
+    if deck.layers % 2 or deck.layers < 4:
+        raise WorkflowError(
+            f"{STUDY}: deck.layers: got {deck.layers}, expected an even number of 4 or more for a mesh study: "
+            "the coarse mesh has half of it"
+        )
+    return f"--element-size {deck.element_size_mm * factor:g} --layers {round(deck.layers / factor)}"

@@ -11,7 +11,7 @@ rule references:
     conda:
         ENVIRONMENT
     params:
-        folder=REFERENCES,
+        folder=lambda wildcards: REFERENCES,
     message:
         "Checking the reference data"
     shell:
@@ -38,10 +38,10 @@ rule tables:
     conda:
         ENVIRONMENT
     params:
-        spring=f"{RESULTS}/spring",
-        references=REFERENCES,
-        decks=DECKS,
-        folder=f"{RESULTS}/tables",
+        spring=lambda wildcards: f"{RESULTS}/spring",
+        references=lambda wildcards: REFERENCES,
+        decks=lambda wildcards: DECKS,
+        folder=lambda wildcards: f"{RESULTS}/tables",
         code=[CODE["compare"], ENGINE_CODE],
     message:
         "Comparing every run with its reference"
@@ -65,7 +65,7 @@ rule check:
     conda:
         ENVIRONMENT
     params:
-        tables=f"{RESULTS}/tables",
+        tables=lambda wildcards: f"{RESULTS}/tables",
         folder=lambda wildcards, input: Path(input.baseline).parent,
         code=CODE["compare"],
     message:

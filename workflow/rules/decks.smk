@@ -14,7 +14,7 @@ rule decks:
     conda:
         ENVIRONMENT
     params:
-        folder=DECKS,
+        folder=lambda wildcards: DECKS,
         code=CODE["deck"],
     message:
         "Writing the decks of all cases"

@@ -12,20 +12,15 @@ checkpoint stale_references:
     conda:
         ENVIRONMENT
     params:
-        decks=DECKS,
-        references=REFERENCES,
-        settings=SETTINGS,
+        decks=lambda wildcards: DECKS,
+        references=lambda wildcards: REFERENCES,
+        settings=lambda wildcards: SETTINGS,
         code=ENGINE_CODE,
     message:
         "Looking for stale references"
     shell:
         "tread-validate stale {input.study} --decks {params.decks} --references {params.references} "
         "--runnable --settings {params.settings} -o {output} > {log} 2>&1"
-
-
-def stale_histories(wildcards):
-    listed = Path(checkpoints.stale_references.get().output[0]).read_text().split()
-    return expand(f"{RESULTS}/fe/{ENGINE}/{{case}}.csv", case=listed)
 
 
 rule fe:
@@ -43,7 +38,7 @@ rule fe:
         ENVIRONMENT
     threads: 1
     params:
-        run=RUNS[ENGINE],
+        run=lambda wildcards: RUNS[ENGINE],
         code=ENGINE_CODE[ENGINE],
     message:
         f"Running engine {ENGINE} on {{wildcards.case}}"
@@ -62,8 +57,8 @@ rule reference:
     params:
         engine=ENGINE,
         study=NAME,
-        decks=DECKS,
-        references=REFERENCES,
+        decks=lambda wildcards: DECKS,
+        references=lambda wildcards: REFERENCES,
         replace="--replace" if config["replace"] else "",
     message:
         "Filing the reference runs"

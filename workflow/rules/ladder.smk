@@ -15,8 +15,8 @@ rule ladder_tables:
     conda:
         ENVIRONMENT
     params:
-        decks=DECKS,
-        references=REFERENCES,
+        decks=lambda wildcards: DECKS,
+        references=lambda wildcards: REFERENCES,
         code=CODE["ladder"],
     message:
         "Running the model ladder"
@@ -33,7 +33,7 @@ rule ladder:
     conda:
         ENVIRONMENT
     params:
-        target=f"{REFERENCES}/ladder/{NAME}",
+        target=lambda wildcards: f"{REFERENCES}/ladder/{NAME}",
     message:
         "Filing the model ladder"
     shell:

@@ -1,17 +1,5 @@
 # What the mesh of the reference runs is worth: one typical case of every kind of path and block (the rule of choice is
 # that of `typical_cases`), on the study's mesh, one of twice and one of half its element size.
-MESH_CASES = [case.case_id for case in typical_cases(STUDY_CASES, path_and_block)]
-MESHES = {"coarse": 2.0, "medium": 1.0, "fine": 0.5}
-
-
-def mesh_options(wildcards):
-    deck, factor = study.model.deck, MESHES[wildcards.mesh]
-    if deck.layers % 2 or deck.layers < 4:
-        raise WorkflowError(
-            f"{STUDY}: deck.layers: got {deck.layers}, expected an even number of 4 or more for a mesh study: "
-            "the coarse mesh has half of it"
-        )
-    return f"--element-size {deck.element_size_mm * factor:g} --layers {round(deck.layers / factor)}"
 
 
 rule mesh_deck:
@@ -49,7 +37,7 @@ rule mesh_run:
     conda:
         ENVIRONMENT
     params:
-        run=RUNS[ENGINE],
+        run=lambda wildcards: RUNS[ENGINE],
         code=ENGINE_CODE[ENGINE],
     message:
         "Running {wildcards.case} on the {wildcards.mesh} mesh"
@@ -87,7 +75,7 @@ rule mesh_study:
     conda:
         ENVIRONMENT
     params:
-        references=REFERENCES,
+        references=lambda wildcards: REFERENCES,
         studies=lambda wildcards, input: [f"--mesh {file}" for file in input],
     message:
         "Filing the mesh study"

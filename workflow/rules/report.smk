@@ -24,12 +24,12 @@ rule report:
     conda:
         ENVIRONMENT
     params:
-        tables=f"{RESULTS}/tables",
-        spring=f"{RESULTS}/spring",
-        references=REFERENCES,
-        decks=DECKS,
+        tables=lambda wildcards: f"{RESULTS}/tables",
+        spring=lambda wildcards: f"{RESULTS}/spring",
+        references=lambda wildcards: REFERENCES,
+        decks=lambda wildcards: DECKS,
         delta=lambda wildcards, input: f"--delta {input.delta}" if input.delta else "",
-        folder=REPORTS,
+        folder=lambda wildcards: REPORTS,
         code=[CODE["report"], CODE["ladder"]],
     message:
         "Writing the report"
