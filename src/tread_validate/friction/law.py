@@ -147,6 +147,14 @@ class FrictionEntry(Sourced, ABC):
         Raises `InputError` for a file that is missing or wrong and for constants that make no law.
         """
 
+    @classmethod
+    def fit(cls, data: FrictionData, static_coefficient: float = 0.9) -> FrictionLaw | None:
+        """Return the law of this kind that is nearest to measurements; None for a kind that is not fitted.
+
+        Raises `InputError` for measurements that cannot determine it.
+        """
+        return None
+
     def measurements(self, root: Path) -> FrictionData | None:
         """Return the measurements behind the law, None where it has none."""
         return None

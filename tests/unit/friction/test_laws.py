@@ -11,18 +11,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
+from tread_validate.errors import InputError
 from tread_validate.friction import (
     ENTRIES,
     FORMS,
+    Coulomb,
     Friction,
     FrictionData,
+    FrictionTable,
+    Huemer,
+    Power,
     coulomb_law,
     huemer_law,
     law,
     power_law,
     table_law,
 )
-from tread_validate.friction.laws.power import fit_power
 
 SOURCED = {"origin": "assumed", "source": "for the test"}
 
@@ -74,18 +78,34 @@ def test_power_law_is_scale_free_above_its_floor_and_level_below(mu, exponent, s
     assert friction.kinetic(pressure, 0.0) == friction.kinetic(pressure, 1e-3) == friction.kinetic(pressure, -5e-4)
 
 
-def test_power_law_is_recovered_from_its_own_table():
-    """Exact readings at six speeds: exponent and coefficients to rounding."""
-    drawn = power_law(0.8, 0.1, -0.2)
-    speed = np.geomspace(2e-3, 5.0, 6)
-    pressure = np.full(6, 2e5)
-    rows = np.arange(6)
+@pytest.mark.parametrize(
+    ("kind", "drawn", "tolerance"),
+    [
+        (Coulomb, coulomb_law(0.5, 0.9), 1e-12),
+        (Power, power_law(0.8, 0.1, -0.2), 1e-12),
+        (FrictionTable, power_law(0.8, 0.1, -0.2), 1e-12),
+        (Huemer, huemer_law(0.8212, 0.0, 0.9, 10.0, 3.729, -4.495, 1.785), 2e-3),
+    ],
+    ids=lambda value: getattr(value, "__name__", ""),
+)
+def test_law_is_recovered_from_its_own_table(kind, drawn, tolerance):
+    """Exact readings at four pressures and eight speeds: to rounding at the readings; Huemer's form by a search."""
+    pressures, speeds = np.geomspace(5e4, 8e5, 4), np.geomspace(2e-3, 5.0, 8)
+    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(4), np.arange(8), indexing="ij"))
+    readings = drawn.kinetic(pressures[i], speeds[j])
+    data = FrictionData(pressures[i], speeds[j], readings, i, j, pressures, speeds, "test")
+    found = kind.fit(data)
+    np.testing.assert_allclose(found.kinetic(pressures[i], speeds[j]), readings, rtol=tolerance)
+    assert found.kind == FORMS[kind.model_fields["kind"].annotation.__args__[0]].name
+
+
+def test_a_power_law_needs_two_speeds():
+    one = np.array([1e5, 2e5])
     data = FrictionData(
-        pressure, speed, drawn.kinetic(pressure, speed), np.zeros(6, dtype=int), rows, pressure[:1], speed, "test"
+        one, np.full(2, 0.1), np.array([0.5, 0.6]), np.arange(2), np.zeros(2, int), one, np.array([0.1]), "t"
     )
-    found = fit_power(data)
-    assert found.constants["exponent"] == pytest.approx(-0.2, rel=1e-12)
-    np.testing.assert_allclose(found.kinetic(2e5, speed), drawn.kinetic(2e5, speed), rtol=1e-12)
+    with pytest.raises(InputError, match="one slip speed only"):
+        Power.fit(data)
 
 
 def test_constants_reach_the_deck_in_its_units_and_the_kernel_in_si():

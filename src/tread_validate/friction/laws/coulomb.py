@@ -11,6 +11,7 @@ from pydantic import ConfigDict, Field, model_validator
 
 from ...kernels import kernel
 from ..law import Coefficient, FrictionEntry, FrictionLaw, LawForm
+from ..table_file import FrictionData
 
 Array = NDArray[np.float64]
 
@@ -65,6 +66,11 @@ class Coulomb(FrictionEntry):
     def law(self, root: Path) -> FrictionLaw:
         """Return the law."""
         return coulomb_law(self.kinetic_coefficient, self.static_coefficient)
+
+    @classmethod
+    def fit(cls, data: FrictionData, static_coefficient: float = 0.9) -> FrictionLaw:
+        """Return the law of the mean coefficient."""
+        return coulomb_law(float(np.mean(data.coefficient)), static_coefficient)
 
 
 def coulomb_law(kinetic_coefficient: float, static_coefficient: float) -> FrictionLaw:

@@ -14,6 +14,7 @@ from ...fields import Positive
 from ...kernels import kernel
 from ...units import IN_MPA, KPA, MM, MPA
 from ..law import PRESSURE, SLIP_SPEED, FrictionEntry, FrictionLaw, LawForm
+from ..table_file import FrictionData
 
 Array = NDArray[np.float64]
 
@@ -100,6 +101,13 @@ class Huemer(FrictionEntry):
     def law(self, root: Path) -> FrictionLaw:
         """Return the law in SI."""
         return self.with_static(self.static_coefficient, "friction law")
+
+    @classmethod
+    def fit(cls, data: FrictionData, static_coefficient: float = 0.9) -> FrictionLaw:
+        """Return the law of least squares; `fit.fit_friction` gives its intervals and warnings too."""
+        from ..fit import fit_friction  # SciPy's optimisers, which a study without a fit does not need
+
+        return fit_friction(data, static_coefficient=static_coefficient).law
 
     def with_static(self, static_coefficient: float, where: str) -> FrictionLaw:
         """Return the law in SI with another static coefficient; `where` names it in an error."""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, FiniteFloat
 
+from ...errors import InputError
 from ...fields import Positive
 from ...kernels import kernel
 from ...units import MM
@@ -80,6 +81,17 @@ class Power(FrictionEntry):
             self.static_coefficient,
         )
 
+    @classmethod
+    def fit(cls, data: FrictionData, static_coefficient: float = 0.9) -> FrictionLaw:
+        """Return the law of least squares in log mu against log v; v0 is the measurements' geometric mean speed."""
+        x, y = np.log(data.slip_speed), np.log(data.coefficient)
+        around = x - x.mean()
+        if not around.any():
+            raise InputError(data.source, f"one slip speed only, {data.speeds[0]:.4g} m/s", "two or more slip speeds")
+        slope = float(around @ y / (around @ around))
+        mu0, v0 = float(np.exp(y.mean())), float(np.exp(x.mean()))
+        return power_law(mu0, v0, slope, float(data.speeds[0]), static_coefficient)
+
 
 def power_law(
     reference_coefficient: float,
@@ -91,11 +103,3 @@ def power_law(
     """Return mu0 (v/v0)^n at no less than the least slip speed; speeds in m/s."""
     values = (reference_coefficient, reference_slip_speed, exponent, least_slip_speed)
     return FrictionLaw(POWER, static_coefficient, {k: float(v) for k, v in zip(POWER.units, values, strict=True)})
-
-
-def fit_power(data: FrictionData, static_coefficient: float = 0.9) -> FrictionLaw:
-    """Return the law of least squares in log mu against log v; v0 is the measurements' geometric mean speed."""
-    x, y = np.log(data.slip_speed), np.log(data.coefficient)
-    around = x - x.mean()
-    slope = float(around @ y / (around @ around))
-    return power_law(float(np.exp(y.mean())), float(np.exp(x.mean())), slope, float(data.speeds[0]), static_coefficient)

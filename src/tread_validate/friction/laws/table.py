@@ -108,6 +108,11 @@ class FrictionTable(FrictionEntry):
         path = root / self.file
         return _read(path, self.static_coefficient, sha256_file(path) if path.is_file() else "")
 
+    @classmethod
+    def fit(cls, data: FrictionData, static_coefficient: float = 0.9) -> FrictionLaw:
+        """Return the law that interpolates the measurements' means."""
+        return table_law(data.pressures, data.speeds, table_of(data), static_coefficient)
+
     def measurements(self, root: Path) -> FrictionData:
         """Return the table's rows."""
         return read_friction_table(root / self.file)
@@ -136,5 +141,4 @@ def table_law(pressures: Array, slip_speeds: Array, table: Array, static_coeffic
 @lru_cache(maxsize=32)
 def _read(path: Path, static_coefficient: float, digest: str) -> FrictionLaw:
     """Read once per content: `digest` is there for the cache."""
-    data = read_friction_table(path)
-    return table_law(data.pressures, data.speeds, table_of(data), static_coefficient)
+    return FrictionTable.fit(read_friction_table(path), static_coefficient)
