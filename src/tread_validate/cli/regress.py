@@ -30,6 +30,9 @@ def command(
     The table has the columns shape, temperature_degC, interference_mm, speed_m_s, peak_normal_force_N, and if there
     are several, source and case_id.
 
+    A row without a force counts as one that is not there. Where the speeds differ between the temperatures of a set,
+    speed and temperature are fitted together and the set's note says so; else the paper's way, set by set.
+
     Example: tread-validate regress results/tables/peaks.csv
     """
     from json import dumps
@@ -44,7 +47,7 @@ def command(
         row
         for source, members in read_peaks(peaks).items()
         for row in regress(
-            members, source=source, exclude=left_out, reference_temperature=zero, level=level
+            members, source=source, exclude=left_out, reference_temperature=zero, level=level, drop_missing=True
         ).coefficients
     ]
     text = dumps([row.cells() for row in rows], indent=2) + "\n" if json else rows_text(Coefficient, rows)

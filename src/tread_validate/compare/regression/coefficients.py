@@ -9,7 +9,8 @@ from ...study import Case
 from ...units import IN_MM
 from ..runs import Runs
 from ..tables import Coefficient
-from .line import EXCLUDED_INTERFERENCES, LEVEL, Peak, Regression, mean_interval, regress
+from .fit import Peak
+from .line import EXCLUDED_INTERFERENCES, LEVEL, Regression, mean_interval, regress
 
 PRINTED_SPEEDS = (150.0, 300.0, 600.0)  # rpm; the paper's other levels are not printed
 ZERO_ASSUMED = "reference temperature of a_theta (assumed)"

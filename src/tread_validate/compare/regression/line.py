@@ -12,52 +12,13 @@ from scipy import stats
 
 from ...errors import InputError
 from ..tables import Coefficient, Residual
+from .fit import Fit, Peak, fieller
+from .together import NOTE as TOGETHER
+from .together import balanced, fit_together, levels
 
 REFERENCE_TEMPERATURE = 22.0  # degC, of a_theta; not printed in the paper: assumed
 EXCLUDED_INTERFERENCES = (0.3,)  # mm: left out of the paper's regressions
 LEVEL = 0.95
-
-
-@dataclass(frozen=True)
-class Peak:
-    """Peak normal force of one run with what it is regressed on.
-
-    Attributes
-    ----------
-    shape : str
-    temperature : float, degC
-    interference : float, mm
-    speed : float, m/s
-    force : float or None, N
-        None where the run is missing.
-    """
-
-    case_id: str
-    shape: str
-    temperature: float
-    interference: float
-    speed: float
-    force: float | None
-
-
-@dataclass(frozen=True)
-class Fit:
-    """F = F0 (1 + a x) through one set of runs.
-
-    Attributes
-    ----------
-    coefficient : float
-        a = slope/intercept of the ordinary least-squares line.
-    low, high : float
-        Ends of its confidence interval by Fieller's theorem; infinite where the intercept is not distinguishable
-        from zero or no degree of freedom is left.
-    fitted : (n,) array, N
-    """
-
-    coefficient: float
-    low: float
-    high: float
-    fitted: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -98,20 +59,6 @@ def fit_line(x: NDArray[np.float64], force: NDArray[np.float64], level: float = 
     return Fit(slope / intercept, low, high, fitted)
 
 
-def fieller(
-    a: float, b: float, var_a: float, var_b: float, cov_ab: float, freedom: int, level: float
-) -> tuple[float, float]:
-    """Return the confidence interval of a/b, or (-inf, inf) where b is not distinguishable from zero."""
-    t2 = float(stats.t.ppf(0.5 + 0.5 * level, freedom)) ** 2
-    qa = b * b - t2 * var_b
-    qb = a * b - t2 * cov_ab
-    qc = a * a - t2 * var_a
-    if qa <= 0.0:
-        return -math.inf, math.inf
-    root = math.sqrt(max(0.0, qb * qb - qa * qc))
-    return (qb - root) / qa, (qb + root) / qa
-
-
 def mean_interval(mean: float, sd: float, n: int, level: float = LEVEL) -> tuple[float, float]:
     """Return the confidence interval of the mean of n values with sample standard deviation `sd` (Student)."""
     if n < 2:
@@ -128,14 +75,19 @@ def regress(
     reference_temperature: float = REFERENCE_TEMPERATURE,
     level: float = LEVEL,
     assumed: str = "",
+    drop_missing: bool = False,
 ) -> Regression:
     """Return a_v and a_theta of every block shape, set by set and as means.
 
     a_v: one line over the speeds for each (temperature, interference); mean and sample standard deviation of the
     sets. a_theta: one line over the temperatures, less `reference_temperature`, for each interference with the
-    speeds grouped; mean and range of the sets. A set with a missing run has no value and takes its mean with it.
+    speeds grouped; mean and range of the sets. Where the speeds of a set differ between its temperatures, speed and
+    temperature are fitted together, and the row's note says so. A set with a missing run has no value and takes its
+    mean with it; with `drop_missing` a run without a force counts as one that is not there.
     """
     chosen = [peak for peak in peaks if not any(abs(peak.interference - left) < 1e-9 for left in exclude)]
+    if drop_missing:
+        chosen = [peak for peak in chosen if peak.force is not None]
     coefficients: list[Coefficient] = []
     residuals: list[Residual] = []
     for shape in sorted({peak.shape for peak in chosen}):
@@ -176,12 +128,15 @@ def _one_set(
         return without(f"{len(lost)} of {len(members)} runs without a force, first {lost[0]}", "missing")
     x = np.array([peak.speed if name == "a_v" else peak.temperature - zero for peak in members])
     force = np.array([peak.force for peak in members], dtype=np.float64)
+    together = name == "a_theta" and not balanced(members)
     try:
-        fit = fit_line(x, force, level)
+        if name == "a_v" and len(set(levels([peak.speed for peak in members]).values())) < 2:
+            raise InputError("regression", "1 level", "at least two different levels (speeds within 0.5 % are repeats)")
+        fit = fit_together(members, zero, level) if together else fit_line(x, force, level)
     except InputError as error:
         return without(str(error), "undefined")
     low, high = _finite(fit.low), _finite(fit.high)
-    note = "" if low is not None else "interval unbounded"
+    note = "; ".join(([TOGETHER] if together else []) + ([] if low is not None else ["interval unbounded"]))
     row = Coefficient(
         source, shape, name, label, fit.coefficient, unit, None, "", None, None, low, high, level, len(members),
         "current", note, assumed,

@@ -10,21 +10,24 @@ from pathlib import Path
 from ...bounds import bounded
 from ...errors import InputError, one_line
 from ...files import read_text
-from .line import Peak
+from .fit import Peak
 
 NUMBERS = ("temperature_degC", "interference_mm", "speed_m_s")
 FORCE = "peak_normal_force_N"
 
 
 def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
-    """Return the peaks by source; an empty force is a missing run, which takes its set's coefficient with it.
+    """Return the peaks by source; an empty force is a missing run. Commas, semicolons or tabs part the cells.
+
+    Decimal commas are read where semicolons or tabs do.
 
     Rows that say false in a column `rig` are passed over: a tyre belt case belongs to no set of speeds. Raises
     `InputError` for a missing column, no rows, a value that is no finite number, a force that is not positive, and for
     two rows of one run.
     """
     lines = [line for line in read_text(path).splitlines() if not line.startswith("#")]
-    reader = csv.DictReader(io.StringIO("\n".join(lines)))
+    separator = max(";\t,", key=lines[0].count) if lines else ","
+    reader = csv.DictReader(io.StringIO("\n".join(lines)), delimiter=separator)
     header = reader.fieldnames or ()
     needed = ("shape", *NUMBERS, FORCE)
     missing = [name for name in needed if name not in header]
@@ -39,7 +42,7 @@ def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
         if not _on_rig(row):
             continue
         temperature, interference, speed = (_number(row[name], name, where) for name in NUMBERS)
-        force = None if row[FORCE] == "" else _number(row[FORCE], FORCE, where)
+        force = None if row[FORCE].strip() == "" else _number(row[FORCE], FORCE, where)
         if force is not None and force <= 0.0:
             raise InputError(f"{where}: {FORCE}", row[FORCE], "a force > 0, or nothing where the run is missing")
         source = row.get("source") or ""
@@ -60,7 +63,7 @@ def _on_rig(row: dict[str, str]) -> bool:
 
 def _number(text: str, name: str, where: str) -> float:
     try:
-        value = float(text)
+        value = float(text.replace(",", "."))
     except ValueError:
         value = math.nan
     if not math.isfinite(value):

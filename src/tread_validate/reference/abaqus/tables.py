@@ -2,7 +2,8 @@
 
 An XY report (``session.writeXYReport``, or Report > XY in the Viewer) is a blank line, a line of column names right
 aligned under at least two blanks, a blank line, then rows of numbers in engineering notation; appending to a file
-repeats the whole.
+repeats the whole. Long names run over several lines of the heading, each part above or below the other. A curve that has
+no value at a time says ``NoValue``. The end of one step and the start of the next stand in two rows of one time.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -22,6 +23,8 @@ from ...files import read_text
 
 Layout = Literal["csv", "xy report", "two columns"]
 LARGEST_FILE = 50_000_000
+MOST_HEADING_LINES = 4
+X_NAME = re.compile(r"\s*X\s{2,}\S")
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
@@ -59,7 +62,14 @@ class Table:
         found = [index for index, name in enumerate(self.columns) if index and leading_name(name) == variable.upper()]
         if len(found) > 1:
             raise InputError(f"{self.source}: {variable}", f"{len(found)} columns", "one column (one contact pair)")
-        return self.values[:, found[0]] if found else None
+        if not found:
+            return None
+        values = self.values[:, found[0]]
+        if np.isnan(values).any():
+            row = int(np.argmax(np.isnan(values))) + 1
+            expected = "a number (write the report with interpolation on)"
+            raise InputError(f"{self.source}: {variable}, row {row} of numbers", "NoValue", expected)
+        return values
 
 
 def leading_name(column: str) -> str:
@@ -75,8 +85,8 @@ def read_table(path: Path | str) -> Table:
     Raises
     ------
     InputError
-        A missing, binary, empty or oversized file, a row of another length, a word that is no number, a gap
-        (``NoValue``), times out of order, or a report with more than one table.
+        A missing, binary, empty or oversized file, a row of another length, a word that is no number, times out of
+        order, or a report with more than one table.
     """
     source = Path(path)
     try:
@@ -93,7 +103,7 @@ def read_table(path: Path | str) -> Table:
     if not body:
         raise InputError(source, "no table", "a header or rows of numbers")
     number, first = body[0]
-    if re.match(r"\s*X\s{2,}\S", first):
+    if _heading_lines(body):
         table = _xy_report(source, body)
     elif "," in first and _number(first.split(",")[0]) is None:
         columns = tuple(name.strip() for name in first.split(","))
@@ -107,18 +117,58 @@ def read_table(path: Path | str) -> Table:
         raise InputError(
             f"{source}:{number}", one_line(first, 60), "a CSV header, an XY report (X ...) or two columns of numbers"
         )
+    table = _without_repeats(table)
     if not np.all(np.diff(table.values[:, 0]) > 0):
         row = int(np.argmax(np.diff(table.values[:, 0]) <= 0)) + 2
         raise InputError(f"{source}: time, row {row}", table.values[row - 1, 0], "a time after the one before")
     return table
 
 
+def _heading_lines(body: list[tuple[int, str]]) -> int:
+    """Return how many lines the heading of an XY report takes; 0 where the text is none."""
+    for count in range(1, MOST_HEADING_LINES + 1):
+        if count < len(body) and _number(_words(body[count][1])[0]) is not None:
+            return count if any(X_NAME.match(line) for _, line in body[:count]) else 0
+    return 1 if X_NAME.match(body[0][1]) else 0
+
+
 def _xy_report(source: Path, body: list[tuple[int, str]]) -> Table:
-    columns = tuple(re.split(r"\s{2,}", _joined_names(body[0][1])))
-    again = [number for number, line in body[1:] if re.match(r"\s*X\s{2,}\S", line)]
+    count = _heading_lines(body)
+    columns = _names(source, body[:count], len(_words(body[count][1])) if count < len(body) else 0)
+    again = [number for number, line in body[count:] if X_NAME.match(line)]
     if again:
         raise InputError(f"{source}:{again[0]}", "a second table", "one table (the report was appended to)")
-    return Table(str(source), "xy report", columns, _rows(source, body[1:], len(columns), None))
+    return Table(str(source), "xy report", columns, _rows(source, body[count:], len(columns), None, gaps=True))
+
+
+def _names(source: Path, heading: list[tuple[int, str]], width: int) -> tuple[str, ...]:
+    """Return the columns' names; parts on several lines belong to the column under whose place they stand."""
+    if len(heading) == 1:
+        return tuple(re.split(r"\s{2,}", _joined_names(heading[0][1])))
+    parts = [(match.group(), 0.5 * (match.start() + match.end())) for _, line in heading
+             for match in re.finditer(r"\S+(?: \S+)*", line.expandtabs())]  # fmt: skip
+    base = next(line for _, line in heading if X_NAME.match(line)).expandtabs()
+    fields = list(re.finditer(r"\S+(?: \S+)*", base))
+    places = [0.5 * (match.start() + match.end()) for match in fields]
+    if len(places) != width:
+        found = f"{len(places)} names over {width} columns of numbers"
+        raise InputError(f"{source}:{heading[0][0]}", found, "a name for each column")
+    names = ["" for _ in places]
+    for text, place in parts:
+        column = min(range(width), key=lambda k: abs(places[k] - place))
+        names[column] = f"{names[column]} {text}".strip()
+    return tuple(names)
+
+
+def _without_repeats(table: Table) -> Table:
+    """Take out the second of two rows of one time: a step's end and the next one's start."""
+    time = table.values[:, 0]
+    repeated = np.concatenate([[False], np.diff(time) == 0])
+    if not repeated.any():
+        return table
+    if table.layout != "xy report" or np.any(repeated[1:] & repeated[:-1]):
+        return table
+    return replace(table, values=table.values[~repeated])
 
 
 def _joined_names(line: str) -> str:
@@ -126,20 +176,20 @@ def _joined_names(line: str) -> str:
     return re.sub(r"\b([A-Z]{2,6}\d?)\s{2,}(?=ASSEMBLY)", r"\1 ", line.strip())
 
 
-def _rows(source: Path, body: list[tuple[int, str]], width: int, separator: str | None) -> NDArray[np.float64]:
+def _rows(
+    source: Path, body: list[tuple[int, str]], width: int, separator: str | None, gaps: bool = False
+) -> NDArray[np.float64]:
+    """Return the numbers; with `gaps`, NoValue is NaN (a column that is used may have none)."""
     rows: list[list[float]] = []
     for number, line in body:
         words = [word.strip() for word in line.split(separator)] if separator else _words(line)
         if len(words) != width:
             raise InputError(f"{source}:{number}", f"{len(words)} fields", f"{width}, as in the line of names")
-        values = []
+        values: list[float] = []
         for word in words:
-            value = _number(word)
+            value = math.nan if gaps and values and word.lower() == "novalue" else _number(word)
             if value is None:
-                expected = "a number"
-                if word.lower() == "novalue":
-                    expected += " (write the report with interpolation on)"
-                raise InputError(f"{source}:{number}", one_line(word, 40) or "nothing", expected)
+                raise InputError(f"{source}:{number}", one_line(word, 40) or "nothing", "a number")
             values.append(value)
         rows.append(values)
     if len(rows) < 2:

@@ -50,6 +50,34 @@ def test_report_with_temporary_names_reads_but_names_nothing(tmp_path):
     assert table.column("CFN2") is None
 
 
+TWO_LINES = """
+                                    CFN2 PI: FACE      CFS1 PI: FACE     U2 PI: PART-1
+                  X                 on ROAD            on ROAD           N: 12
+
+                0.                 0.                  0.              NoValue
+               10.E-03            18.1498             -1.2             0.5
+               10.E-03            18.1498             -1.2             NoValue
+               20.E-03            22.1747             -2.              1.
+"""
+
+
+def test_heading_over_two_lines_gaps_and_a_step_s_end_twice(tmp_path):
+    """Parts of a name go by their place; the row of a time that stands twice counts once; a gap is a gap."""
+    table = read_table(write(tmp_path, TWO_LINES))
+    assert table.columns == ("X", "CFN2 PI: FACE on ROAD", "CFS1 PI: FACE on ROAD", "U2 PI: PART-1 N: 12")
+    np.testing.assert_array_equal(table.values[:, 0], [0.0, 0.01, 0.02])
+    np.testing.assert_array_equal(table.column("CFN2"), [0.0, 18.1498, 22.1747])
+    with pytest.raises(InputError, match=r"U2, row 1 of numbers: got NoValue, expected .*interpolation on"):
+        table.column("U2")
+
+
+def test_a_used_column_with_a_gap_is_refused(tmp_path):
+    table = read_table(write(tmp_path, REPORT.replace("-1.2", "NoValue")))
+    assert table.column("CFN2") is not None
+    with pytest.raises(InputError, match="interpolation on"):
+        table.column("CFS1")
+
+
 @pytest.mark.parametrize("separator", [" ", ",", "\t", ";", " , "])
 def test_two_columns_may_be_apart_in_any_usual_way(tmp_path, separator):
     table = read_table(write(tmp_path, f"0.0{separator}0.0\n1e-3{separator}5.5\n2D-3{separator}0\n"))
@@ -65,7 +93,6 @@ def test_two_columns_may_be_apart_in_any_usual_way(tmp_path, separator):
         ("# only: notes\n", "no table"),
         ("words\nand words\n", "a CSV header, an XY report"),
         (REPORT + REPORT, "second table"),
-        (REPORT.replace("-1.2", "NoValue"), "interpolation on"),
         (REPORT.replace("-1.2", ""), "2 fields, expected 3"),
         (REPORT.replace("18.1498", "18,1498"), "4 fields, expected 3"),
         (REPORT.replace("856.05E-06", "6.05E-06"), "a time after the one before"),
