@@ -2,8 +2,8 @@
 
 An XY report (``session.writeXYReport``, or Report > XY in the Viewer) is a blank line, a line of column names right
 aligned under at least two blanks, a blank line, then rows of numbers in engineering notation; appending to a file
-repeats the whole. Long names run over several lines of the heading, each part above or below the other. A curve that has
-no value at a time says ``NoValue``. The end of one step and the start of the next stand in two rows of one time.
+repeats the whole. Long names run over several lines of the heading, each part above or below the other. A curve that
+has no value at a time says ``NoValue``. The end of one step and the start of the next stand in two rows of one time.
 """
 
 from __future__ import annotations
