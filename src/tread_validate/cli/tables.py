@@ -38,6 +38,8 @@ def command(
 
     Example: tread-validate tables config/study.yaml
     """
+    from collections import Counter
+
     from ..compare import build_tables
     from ..compare.regression.line import EXCLUDED_INTERFERENCES
     from ..study import load_study
@@ -51,10 +53,10 @@ def command(
         runs = [run for (name, _), run in found.runs.items() if name == source]
         current = sum(run.history is not None for run in runs)
         typer.echo(f"{source}: {current} of {len(runs)} runs can be compared")
-    told = [row for row in found.rows if row.verdict != "cannot tell"]
-    agree = sum(row.verdict == "agrees" for row in told)
+    counts = Counter(row.verdict for row in found.rows)
     typer.echo(
-        f"{len(found.rows)} rows: {agree} agree, {len(told) - agree} disagree, {len(found.rows) - len(told)} open"
+        f"{len(found.rows)} rows: {counts['adequate']} good enough, {counts['inadequate']} not, "
+        f"{counts['cannot tell']} open"
     )
     claims = [claim for claim in found.claims if claim.verdict != "cannot tell"]
     agree = sum(claim.verdict == "agrees" for claim in claims)

@@ -12,7 +12,7 @@ from ..study import load_study
 from .provenance import assumed_inputs, provenance
 from .regression.line import EXCLUDED_INTERFERENCES
 from .study_comparison import Comparison, compare_study
-from .table_rows import case_row, claim_row, peak_row
+from .table_rows import case_row, claim_row, peak_row, tolerance_row
 from .tables import (
     AssumedRow,
     CaseRow,
@@ -24,6 +24,7 @@ from .tables import (
     PeakRow,
     Residual,
     Sensitivity,
+    ToleranceRow,
     write_package,
     write_rows,
 )  # fmt: skip
@@ -72,6 +73,7 @@ def write_tables(found: Comparison, reference_dir: Path, out_dir: Path) -> None:
     write_rows(out_dir, Residual, found.residuals)
     write_rows(out_dir, ClaimRow, map(claim_row, found.claims))
     write_rows(out_dir, Sensitivity, found.sensitivity)
+    write_rows(out_dir, ToleranceRow, map(tolerance_row, found.tolerances.values()))
     write_rows(out_dir, AssumedRow, assumed_inputs(found.cases))
     write_text(out_dir / "published.csv", read_text(reference_dir / PUBLISHED))
     facts = provenance(found.study, found.cases, found.runs, found.sources, reference_dir)

@@ -39,6 +39,7 @@ def engine_rows(cases: Sequence[Case], runs: Runs, engines: Sequence[str]) -> li
                 reference_source=a.source,
                 predicted_source=b.source,
                 uncertainty=a.uncertainty,
+                numerical=b.uncertainty,
                 assumed="; ".join(case.assumed()),
             )
     return rows

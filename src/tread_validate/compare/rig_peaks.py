@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import InputError, one_line
 from ..history import History
 from ..reference.rig import load_rig
 from ..study import Case
-from .quantities import SCALAR, SCALARS, scalars
+from .quantities import SCALAR, SCALARS, Scalars, Tolerances, scalars
 from .runs import Runs, SourceRun
-from .scores.comparison import compare, scalar_row
-from .scores.verdict import CANNOT_TELL
+from .scores.comparison import compare, empty_row, scalar_row
+from .scores.uncertainty import UNIFORM, Uncertainties
 from .tables import MetricRow
 
 MEASURED = "rig:measured"
@@ -72,7 +72,12 @@ def rig_runs(peaks: Mapping[str, RigPeak]) -> dict[tuple[str, str], SourceRun]:
 
 
 def rig_rows(
-    cases: Sequence[Case], runs: Runs, sources: Sequence[str], peaks: Mapping[str, RigPeak]
+    cases: Sequence[Case],
+    runs: Runs,
+    sources: Sequence[str],
+    peaks: Mapping[str, RigPeak],
+    spreads: Mapping[str, Mapping[str, float]],
+    judged: Tolerances,
 ) -> list[MetricRow]:
     """Compare every source with the imported records; a case without one has a row that says so."""
     rows: list[MetricRow] = []
@@ -83,12 +88,14 @@ def rig_rows(
             peak, run = peaks.get(case.case_id), runs[source, case.case_id]
             assumed = "; ".join([*case.assumed(), *([peak.assumed] if peak is not None and peak.assumed else [])])
             if peak is None:
-                rows.append(_without(case, source, MEASURED, None, run, "missing", NOTHING).marked(assumed))
+                rows.append(_without(case, source, MEASURED, None, run, judged, "missing", NOTHING).marked(assumed))
             elif run.history is None:
                 note = f"{source}: {run.note}"
-                rows.append(_without(case, source, peak.source, peak.mean, run, run.status, note).marked(assumed))
+                rows.append(
+                    _without(case, source, peak.source, peak.mean, run, judged, run.status, note).marked(assumed)
+                )
             else:
-                rows += [row.marked(assumed) for row in _rows(case, source, peak, run)]
+                rows += [row.marked(assumed) for row in _rows(case, source, peak, run, spreads.get("rig"), judged)]
     return rows
 
 
@@ -97,12 +104,25 @@ def measured_means(peaks: Mapping[str, RigPeak]) -> dict[str, float]:
     return {case_id: peak.mean for case_id, peak in peaks.items() if peak.source == MEASURED}
 
 
-def _rows(case: Case, source: str, peak: RigPeak, run: SourceRun) -> list[MetricRow]:
-    """Compare histories; the peak is that of the passes, not of their mean, with their range as its uncertainty."""
+def _rows(
+    case: Case,
+    source: str,
+    peak: RigPeak,
+    run: SourceRun,
+    inputs: Mapping[str, float] | None,
+    judged: Tolerances,
+) -> list[MetricRow]:
+    """Compare histories; the peak is that of the passes, not of their mean, with their range as its uncertainty.
+
+    The rig does not share the assumed inputs of the study: their spread counts in full, where it is known.
+    """
     assert run.history is not None
     assert run.scalars is not None
     names = (case.case_id, peak.source, source)
-    own = scalar_row(SCALAR["peak_normal_force"], peak.mean, run.scalars.peak_normal_force, {}, names, peak.spread)
+    quantity = SCALAR["peak_normal_force"]
+    known = Uncertainties({quantity.name: UNIFORM * peak.spread / peak.mean}, run.numerical, inputs)
+    parts = known.of_scalar(quantity, Scalars({quantity.name: peak.mean}), run.scalars)
+    own = scalar_row(quantity, peak.mean, run.scalars.peak_normal_force, {}, names, parts, judged)
     try:
         rows = compare(
             peak.history,
@@ -110,12 +130,16 @@ def _rows(case: Case, source: str, peak: RigPeak, run: SourceRun) -> list[Metric
             case_id=case.case_id,
             reference_source=peak.source,
             predicted_source=source,
-            uncertainty={"peak_normal_force": peak.spread / peak.mean},
+            uncertainty=known.data,
+            numerical=run.numerical,
+            inputs=inputs,
+            tolerances=judged,
         )
     except InputError as error:
         note = one_line(str(error))
-        return [own, _without(case, source, peak.source, None, run, "undefined", note, "normal_force", "relative_rms")]
-    kept = [row for row in rows if row.quantity not in (*NOT_MEASURED, "peak_normal_force")]
+        return [own, replace(empty_row(quantity, None, None, names, judged, "undefined", note), quantity="normal_force",
+                             metric="relative_rms")]  # fmt: skip
+    kept = [row for row in rows if row.quantity not in (*NOT_MEASURED, quantity.name)]
     return [own, *kept]
 
 
@@ -125,13 +149,10 @@ def _without(
     reference_source: str,
     reference: float | None,
     run: SourceRun,
+    judged: Tolerances,
     status: str,
     note: str,
-    quantity: str = "peak_normal_force",
-    metric: str = "scalar",
 ) -> MetricRow:
-    predicted = run.scalars.peak_normal_force if run.scalars is not None and metric == "scalar" else None
-    return MetricRow(
-        case.case_id, quantity, metric, reference_source, source, reference, predicted, "N", None, "relative", None,
-        SCALAR["peak_normal_force"].tolerance, None, CANNOT_TELL, status, note,
-    )  # fmt: skip
+    predicted = run.scalars.peak_normal_force if run.scalars is not None else None
+    names = (case.case_id, reference_source, source)
+    return empty_row(SCALAR["peak_normal_force"], reference, predicted, names, judged, status, note)

@@ -13,6 +13,7 @@ from ..reference import FeStore
 from ..spring.variants import code_digest
 from ..study import Case
 from .quantities import Scalars, scalars
+from .scores.uncertainty import Uncertainty, from_mesh_error
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,9 @@ class SourceRun:
     history, scalars : or None
         Only where current or of other code.
     uncertainty : float, mapping or None
-        Relative, of the forces; None where not known.
+        Relative standard uncertainty of the forces, of a run as a reference; None where not known.
+    numerical : float, mapping or None
+        That of the forces from mesh and step, of a run as a prediction; 0 where it counts as part of the model.
     digest : str
         SHA-256 of the history file, empty where there is none.
     folder : str
@@ -43,9 +46,10 @@ class SourceRun:
     note: str = ""
     history: History | None = None
     scalars: Scalars | None = None
-    uncertainty: float | Mapping[str, float] | None = None
+    uncertainty: Uncertainty = None
     digest: str = ""
     folder: str = ""
+    numerical: Uncertainty = 0.0
 
 
 Runs = Mapping[tuple[str, str], SourceRun]
@@ -75,7 +79,8 @@ def fe_runs(
         run = SourceRun(source, case.case_id, found.status, found.reason, digest=found.digest, folder=folder)
         if found.history is not None:
             stated = found.stated_error()
-            run = with_scalars(run, found.history, store.mesh_errors.error(case, engine) if stated is None else stated)
+            error = store.mesh_errors.error(case, engine) if stated is None else stated
+            run = with_scalars(run, found.history, from_mesh_error(error))
         runs[source, case.case_id] = run
     return runs
 
@@ -109,7 +114,7 @@ def _binding(history: History, case: Case, variant: str) -> tuple[str, str]:
     return "current", ""
 
 
-def with_scalars(run: SourceRun, history: History, uncertainty: float | Mapping[str, float] | None) -> SourceRun:
+def with_scalars(run: SourceRun, history: History, uncertainty: Uncertainty) -> SourceRun:
     """Return the run with its history and what sums it up; one without contact has neither."""
     try:
         values = scalars(history)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import InputError, one_line
@@ -14,12 +14,15 @@ from ..study import Case, LoadedStudy
 from ..units import IN_MM
 from .claims.claim import Claim, Evidence
 from .claims.published import published_claims
+from .input_spread import input_spreads
 from .model_runs import model_runs, model_source
+from .numerical import numerical_uncertainties
+from .quantities import Tolerances, tolerances
 from .regression.coefficients import computed_regression, published_coefficients
 from .regression.differences import differences
 from .regression.line import EXCLUDED_INTERFERENCES
 from .rig_peaks import MEASURED, measured_means, rig_peaks, rig_rows, rig_runs
-from .runs import Runs, engines, fe_runs, spring_runs
+from .runs import Runs, SourceRun, engines, fe_runs, spring_runs
 from .scores.comparison import compare, empty_rows
 from .scores.ensemble import summarise
 from .scores.sensitivity import sensitivity
@@ -41,6 +44,7 @@ class Comparison:
     differences: tuple[Difference, ...]
     claims: tuple[Claim, ...]
     sensitivity: tuple[Sensitivity, ...]
+    tolerances: Tolerances
 
 
 def compare_study(
@@ -66,8 +70,10 @@ def compare_study(
         references.append(f"fe:{engine}")
     rig = rig_peaks(reference_dir, cases)
     runs |= rig_runs(rig)
-    rows = _metric_rows(cases, runs, sources, references)
-    rows += rig_rows(cases, runs, [*sources, *references], rig)
+    judged = tolerances(loaded.model.tolerances, loaded.source)
+    runs = _with_numerical(cases, runs, variants)
+    rows = _metric_rows(cases, runs, sources, references, judged)
+    rows += rig_rows(cases, runs, [*sources, *references], rig, input_spreads(reference_dir, cases), judged)
     published = {item.id: item for item in load_published(reference_dir)}
     coefficients = list(published_coefficients(published))
     residuals: list[Residual] = []
@@ -97,6 +103,7 @@ def compare_study(
         differences=differences(coefficients),
         claims=published_claims(evidence, [*sources, *references]),
         sensitivity=_sensitivity(cases, runs, sources, references),
+        tolerances=judged,
     )
 
 
@@ -109,8 +116,23 @@ def _resolved(cases: tuple[Case, ...]) -> tuple[Case, ...]:
     return tuple(resolve_creep(cases))
 
 
+def _with_numerical(cases: Sequence[Case], runs: Runs, variants: Sequence[str]) -> dict[tuple[str, str], SourceRun]:
+    """Give the spring runs what mesh and step are worth, where there is anything to compare them with."""
+    made = dict(runs)
+    for variant in variants:
+        known: dict[tuple[str, str], Mapping[str, float]] | None = None
+        for case in cases:
+            run = runs[f"spring:{variant}", case.case_id]
+            if run.history is None:
+                continue
+            if known is None:
+                known = numerical_uncertainties(cases, variant)
+            made[run.source, case.case_id] = replace(run, numerical=known[case.path_name, case.block_name])
+    return made
+
+
 def _metric_rows(
-    cases: Sequence[Case], runs: Runs, sources: Sequence[str], references: Sequence[str]
+    cases: Sequence[Case], runs: Runs, sources: Sequence[str], references: Sequence[str], judged: Tolerances
 ) -> list[MetricRow]:
     rows: list[MetricRow] = []
     for reference_source in references:
@@ -130,6 +152,9 @@ def _metric_rows(
                             reference_source=reference_source,
                             predicted_source=predicted_source,
                             uncertainty=reference.uncertainty,
+                            numerical=predicted.numerical,
+                            inputs=0.0,  # both sides take the study's inputs: what is wrong with these is so with both
+                            tolerances=judged,
                             assumed=assumed,
                         )
                     except InputError as error:  # two clocks: no score of the pair means anything
@@ -145,6 +170,7 @@ def _metric_rows(
                     note or f"{bad.source}: {bad.note}",
                     reference=reference.scalars,
                     predicted=predicted.scalars,
+                    tolerances=judged,
                     assumed=assumed,
                 )
     return rows

@@ -7,9 +7,9 @@ from typing import Any, cast
 from ..study import Case
 from ..units import IN_MM, IN_MPA
 from .claims.claim import Claim
-from .quantities import SCALARS
+from .quantities import SCALARS, Tolerance
 from .runs import SourceRun
-from .tables import CaseRow, ClaimRow, PeakRow
+from .tables import CaseRow, ClaimRow, PeakRow, ToleranceRow
 
 
 def case_row(case: Case) -> CaseRow:
@@ -42,6 +42,14 @@ def peak_row(case: Case, run: SourceRun) -> PeakRow:
         folder=run.folder,
         assumed="; ".join(case.assumed()),
     )
+
+
+def tolerance_row(item: Tolerance) -> ToleranceRow:
+    """Return what is good enough for one quantity or score."""
+    return ToleranceRow(
+        item.name, item.value, item.floor, "" if item.floor is None else item.unit, item.criterion, item.origin,
+        item.reason,
+    )  # fmt: skip
 
 
 def claim_row(claim: Claim) -> ClaimRow:

@@ -99,8 +99,9 @@ def _ensemble_row(row: Ensemble, marks: Marks, headline: bool) -> Row:
 
 
 def count_verdicts(rows: Iterable[MetricRow | ClaimRow]) -> dict[str, int]:
-    """Count the verdicts of some rows."""
+    """Count the verdicts of some rows; a model that is good enough counts as one that agrees."""
+    same = {"adequate": "agrees", "inadequate": "disagrees"}
     counts = {"agrees": 0, "disagrees": 0, "cannot tell": 0}
     for row in rows:
-        counts[row.verdict] += 1
+        counts[same.get(row.verdict, row.verdict)] += 1
     return counts

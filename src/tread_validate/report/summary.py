@@ -195,8 +195,8 @@ def _foundations(marks: Marks) -> Verdict:
 
 def _counted(counts: dict[str, int]) -> str:
     words = (
-        ("agrees", "agree within uncertainty"),
-        ("disagrees", "disagree"),
+        ("agrees", "good enough"),
+        ("disagrees", "not"),
         ("cannot tell", "cannot be told"),
     )
     return "Verdicts: " + ", ".join(f"{counts[key]} {text}" for key, text in words)

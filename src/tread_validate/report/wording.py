@@ -19,9 +19,12 @@ GROUPS = {
     "parallelogram": "rig, parallelogram",
     "published": "rig, 0.1 and 0.2 mm",
 }
-TONES: dict[str, Tone] = {"agrees": "good", "disagrees": "bad", "cannot tell": "unknown"}
+TONES: dict[str, Tone] = {
+    "agrees": "good", "disagrees": "bad", "cannot tell": "unknown", "adequate": "good", "inadequate": "bad",
+}  # fmt: skip
 NBSP = "\u00a0"
-SYMBOLS = {"agrees": "✓", "disagrees": "✗", "cannot tell": "?"}
+SYMBOLS = {"agrees": "✓", "disagrees": "✗", "cannot tell": "?", "adequate": "✓", "inadequate": "✗"}
+VERDICTS = {"adequate": "good enough", "inadequate": "not good enough"}
 STATUSES = {
     "current": "current",
     "missing": "no reference run yet",
@@ -31,6 +34,8 @@ STATUSES = {
     "corrupt": "reference fails its checksum",
     "no_contact": "no contact",
     "undefined": "not defined here",
+    "not_given": "not given by one of the two",
+    "not_applicable": "not applicable: the study's inputs are not the paper's",
 }
 
 
@@ -65,7 +70,7 @@ def group(key: str) -> str:
 
 def verdict(key: str) -> str:
     """Write a verdict with its symbol, so that colour is never its only carrier."""
-    return f"{SYMBOLS[key]} {key}" if key in SYMBOLS else key
+    return f"{SYMBOLS[key]} {VERDICTS.get(key, key)}" if key in SYMBOLS else key
 
 
 def status(key: str) -> str:

@@ -16,11 +16,11 @@ from .compound import (
 )
 from .document import Study
 from .load import LoadedStudy, load_study
-from .settings import DeckSettings, SpringSettings
+from .settings import DeckSettings, SpringSettings, Tolerance
 
 __all__ = [
     "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FlatTrack", "FractionalZener", "Friction",
     "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "PathEntry", "Power", "PronyCompound",
-    "PronyFile", "PronyTerm", "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Wlf",
-    "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
+    "PronyFile", "PronyTerm", "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Tolerance",
+    "Wlf", "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
 ]  # fmt: skip

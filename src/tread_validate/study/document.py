@@ -12,7 +12,7 @@ from ..geometry import AnyPath, Block
 from .compound import Compound
 from .own_model import OwnModel
 from .run import Run
-from .settings import DeckSettings, SpringSettings
+from .settings import DeckSettings, SpringSettings, Tolerance
 
 
 class Study(Strict):
@@ -32,6 +32,9 @@ class Study(Strict):
     )
     spring: Annotated[SpringSettings, Numerics("spring")] = SpringSettings()
     deck: Annotated[DeckSettings, Numerics("deck")] = DeckSettings()
+    tolerances: Annotated[dict[str, Tolerance], Label("what is good enough: judges runs, changes none")] = Field(
+        {}, description="errors that are good enough, by quantity or score; the rest keep their defaults"
+    )
     engine: Annotated[
         Literal["embedded", "abaqus", "calculix"], Label("which solver makes references; each run names its own")
     ] = "embedded"

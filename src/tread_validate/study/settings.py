@@ -1,4 +1,4 @@
-"""Settings of the solvers: how finely they work."""
+"""Settings of a study: how finely its solvers work, and how large an error is good enough."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, FiniteFloat
 
-from ..fields import Label, Name, NonNegative, Positive, Strict
+from ..fields import Label, Line, Name, NonNegative, Positive, Strict
 
 
 class SpringSettings(Strict):
@@ -19,6 +19,16 @@ class SpringSettings(Strict):
     variants: Annotated[tuple[Name, ...], Field(min_length=1), Label("which models run; each run names its own")] = (
         "paper",
     )
+
+
+class Tolerance(Strict):
+    """How large an error is good enough for what the study is for."""
+
+    value: Positive = Field(description="largest error, as a share of what the quantity is judged by")
+    floor: NonNegative | None = Field(
+        None, description="error in the quantity's unit that is always good enough, where it is judged so"
+    )
+    reason: Line = Field(description="why it is good enough, in one line")
 
 
 class DeckSettings(Strict):

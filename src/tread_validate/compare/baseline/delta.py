@@ -19,7 +19,10 @@ SLACK = 1e-9
 ITERATIVE, ITERATIVE_FACTOR = "spring:coupled", 5.0
 
 VERDICTS = ("verdict", "agreement", "passed", "significant", "grade", "target_met")
-RULES = ("tolerance", "ci_level", "error_type", "spread_kind", "published", "published_low", "published_high")
+RULES = (
+    "tolerance", "criterion", "uncertainty", "u_numerical", "u_input", "u_data", "ci_level", "error_type",
+    "spread_kind", "published", "published_low", "published_high",
+)  # fmt: skip
 RANK = {"flip": 0, "rule": 1, "input": 2, "run": 3, "consequence": 4}
 OUTCOMES = {"stale": 0, "missing": 1, "new": 2, "changed": 3, "moved": 4, "within": 5}
 
@@ -116,6 +119,8 @@ def _kind(table: str, column: str) -> str:
     if column in VERDICTS:
         return "flip"
     if column in RULES:
+        return "rule"
+    if table == "tolerances":
         return "rule"
     if table in ("cases", "assumed", "published"):
         return "input"

@@ -9,8 +9,11 @@ from ...reference import PublishedValue
 from ...study import Case, LoadedStudy
 from ..regression.coefficients import interval
 from ..runs import Runs, SourceRun
-from ..scores.verdict import AGREES, CANNOT_TELL, DISAGREES
-from ..tables import Coefficient, Verdict
+from ..tables import ClaimVerdict, Coefficient
+
+AGREES: ClaimVerdict = "agrees"
+DISAGREES: ClaimVerdict = "disagrees"
+CANNOT_TELL: ClaimVerdict = "cannot tell"
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,7 @@ class Computed:
     status: str = "current"
     note: str = ""
     assumed: tuple[str, ...] = ()
-    verdict: Verdict | None = None
+    verdict: ClaimVerdict | None = None
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,7 @@ class Claim:
     high: float | None
     error: float | None
     error_type: str
-    verdict: Verdict
+    verdict: ClaimVerdict
     note: str
 
 

@@ -12,9 +12,8 @@ from ..quantities import contact_window
 from ..regression.differences import differences
 from ..regression.line import EXCLUDED_INTERFERENCES
 from ..runs import SourceRun
-from ..scores.verdict import AGREES, CANNOT_TELL, DISAGREES
-from ..tables import Verdict
-from .claim import Compute, Computed, Evidence, nothing
+from ..tables import ClaimVerdict
+from .claim import AGREES, CANNOT_TELL, DISAGREES, Compute, Computed, Evidence, nothing
 
 SHAPES = ("rectangle", "parallelogram")
 
@@ -185,7 +184,7 @@ def _table1(name: str, shape: str, origin: str) -> Compute:
         (found,) = differences([printed, row])
         if found.ci_low is None or found.ci_high is None or found.p_value is None:
             return Computed(100.0 * row.value, note=found.note, assumed=assumed, verdict=CANNOT_TELL)
-        verdict: Verdict = CANNOT_TELL
+        verdict: ClaimVerdict = CANNOT_TELL
         if found.significant:
             verdict = DISAGREES
         elif 0.5 * (found.ci_high - found.ci_low) <= abs(printed.value):

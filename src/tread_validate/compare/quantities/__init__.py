@@ -2,11 +2,12 @@
 
 from .catalogue import HEADLINE, HISTORIES, HISTORY_METRIC, HISTORY_METRICS, SCALAR, SCALARS
 from .contact import Contact, contact_window
-from .quantity import FORCE_TOLERANCE, SMALL_SHARE, ErrorType, HistoryMetric, Noise, Quantity, Scale
+from .quantity import FORCE_TOLERANCE, ErrorType, HistoryMetric, Noise, Quantity, Scale
 from .scalars import Scalars, scalars
+from .tolerance import Tolerance, Tolerances, tolerances
 
 __all__ = [
-    "FORCE_TOLERANCE", "HEADLINE", "HISTORIES", "HISTORY_METRIC", "HISTORY_METRICS", "SCALAR", "SCALARS",
-    "SMALL_SHARE", "Contact", "ErrorType", "HistoryMetric", "Noise", "Quantity", "Scalars", "Scale", "contact_window",
-    "scalars",
+    "FORCE_TOLERANCE", "HEADLINE", "HISTORIES", "HISTORY_METRIC", "HISTORY_METRICS", "SCALAR", "SCALARS", "Contact",
+    "ErrorType", "HistoryMetric", "Noise", "Quantity", "Scalars", "Scale", "Tolerance", "Tolerances",
+    "contact_window", "scalars", "tolerances",
 ]  # fmt: skip

@@ -13,7 +13,6 @@ Column = Literal["normal", "tangential", "slip"]
 Scale = Literal["itself", "peak_normal_force", "normal_impulse", "contact_duration", "one"]
 
 FORCE_TOLERANCE = 0.10
-SMALL_SHARE = 0.20  # a tangential force below this share of the peak normal force is judged in newtons
 
 # A noise is what another processor may do to a number, not what a change of the code may: bounds that no noise of a
 # deterministic model exceeds. A declaration beyond them is a mistake and is refused.
@@ -57,13 +56,14 @@ class Quantity:
     noise : Noise
         How far another processor may move it.
     scale : str
-        What the tolerance is a share of. ``itself``: the error is relative to the reference. Otherwise the error is
-        absolute and the tolerance is `tolerance` times that scalar of the reference (``one``: times 1).
+        What the tolerance is a share of: the reference itself, another scalar of the reference, or ``one``.
     tolerance : float
-        Largest error that passes, as a share of the scale.
-    small : str or None
-        Scalar of the reference against which a reference value counts as small (below `SMALL_SHARE` of it) and is
-        judged absolutely, with `SMALL_SHARE` times the tolerance of that scalar: the two rules meet without a jump.
+        Largest error that is good enough by default, as a share of the scale.
+    reason : str
+        Why.
+    floor : float or None
+        Error in `unit` that is good enough however small the reference is; such a quantity is judged in its unit, any
+        other of scale ``itself`` relatively.
     needs : str
         The column of a history that it is computed from: a model may leave out all but the normal force.
     measured : bool
@@ -81,7 +81,8 @@ class Quantity:
     noise: Noise
     scale: Scale
     tolerance: float
-    small: Scale | None = None
+    reason: str
+    floor: float | None = None
     needs: Column = "normal"
     measured: bool = True
     flag: bool = False
@@ -90,6 +91,11 @@ class Quantity:
         most = 0.5 if self.flag else MOST_ABSOLUTE[self.unit]
         if self.noise.absolute > most:
             raise ValueError(f"{self.name}: got a noise of {self.noise.absolute:g} {self.unit}, expected <= {most:g}")
+
+    @property
+    def error_type(self) -> ErrorType:
+        """``relative`` to the reference, or ``absolute`` in the quantity's unit."""
+        return "relative" if self.scale == "itself" and self.floor is None else "absolute"
 
     @property
     def column(self) -> str:
@@ -102,12 +108,15 @@ class HistoryMetric:
     """One score of a pair of histories: how its error is expressed and what passes.
 
     `sensitivity` is the largest change of the score per unit of relative amplitude error of the reference, to first
-    order; `noise` is in the error's unit.
+    order; `noise` is in the error's unit; `floor` in N makes the error of a tangential history one in
+    newtons.
     """
 
     name: str
     label: str
     error_type: ErrorType
     tolerance: float
+    reason: str
     sensitivity: float
     noise: Noise
+    floor: float | None = None

@@ -7,12 +7,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...history import History
-from ..quantities import HISTORIES, HISTORY_METRICS, SCALARS, SMALL_SHARE, ErrorType, Quantity, Scalars, Scale, scalars
+from ..quantities import HISTORIES, HISTORY_METRICS, SCALARS, Quantity, Scalars, Scale, Tolerances, scalars
+from ..quantities import tolerances as default_tolerances
 from ..tables import MetricRow
 from .align import Pair, align, window
-from .history_rows import Names, Uncertainty, history_rows, metric_unit
+from .history_rows import NOT_GIVEN, history_rows, metric_unit, not_given_rows
 from .iso18571 import SAMPLES as ISO_SAMPLES
-from .verdict import CANNOT_TELL, verdict
+from .uncertainty import Names, Uncertainties, Uncertainty
+from .verdict import CANNOT_TELL, UNKNOWN, Parts, agreement, verdict
 
 THOUSAND = (500.0, 2000.0)
 MIRRORED = -0.9
@@ -27,6 +29,9 @@ def compare(
     reference_source: str = "reference",
     predicted_source: str = "predicted",
     uncertainty: Uncertainty = None,
+    numerical: Uncertainty = 0.0,
+    inputs: Uncertainty = 0.0,
+    tolerances: Tolerances | None = None,
     assumed: str = "",
 ) -> tuple[MetricRow, ...]:
     """Compare two histories of one pass.
@@ -35,8 +40,12 @@ def compare(
     ----------
     reference, predicted : History
         Both on the clock whose zero is the first touch; nothing is shifted.
-    uncertainty : float, mapping or None
-        Relative uncertainty of the reference's forces, or by quantity name; None where it is not known.
+    uncertainty, numerical, inputs : float, mapping or None
+        Standard uncertainties: of the reference's forces, of the prediction's from its mesh and step, and of the
+        difference from inputs that the two do not share. Relative, for all forces or by quantity name; None where not
+        known.
+    tolerances : mapping, optional
+        What is good enough, by quantity and score; the defaults of the catalogue if left out.
 
     Raises
     ------
@@ -45,15 +54,23 @@ def compare(
     """
     limits = window(reference, predicted)
     names = (case_id, reference_source, predicted_source)
+    known = Uncertainties(uncertainty, numerical, inputs)
+    judged = tolerances if tolerances is not None else default_tolerances()
     a, b = scalars(reference), scalars(predicted)
-    rows = [_scalar_row(quantity, a, b, names, uncertainty) for quantity in SCALARS]
+    rows = []
+    for quantity in SCALARS:
+        value, found = a.values.get(quantity.name), b.values.get(quantity.name)
+        if value is None or found is None:
+            rows.append(empty_row(quantity, value, found, names, judged, "not_given", NOT_GIVEN))
+            continue
+        rows.append(scalar_row(quantity, value, found, a.as_dict(), names, known.of_scalar(quantity, a, b), judged))
     fine = align(reference, predicted, limits=limits)
     coarse = align(reference, predicted, ISO_SAMPLES, limits)
-    for quantity in HISTORIES:
-        if quantity == "tangential_force" and not (reference.gives_tangential and predicted.gives_tangential):
-            rows += [_not_given(quantity, m.name, names, metric_unit(m), m.error_type) for m in HISTORY_METRICS]
+    for name in HISTORIES:
+        if name == "tangential_force" and not (reference.gives_tangential and predicted.gives_tangential):
+            rows += not_given_rows(name, names, judged)
         else:
-            rows += history_rows(quantity, fine, coarse, names, uncertainty)
+            rows += history_rows(name, fine, coarse, names, known, judged)
     hints = suspicions(reference, predicted, fine)
     return tuple(row.marked(assumed).hinted(hints.get((row.quantity, row.metric), "")) for row in rows)
 
@@ -84,24 +101,43 @@ def empty_rows(
     *,
     reference: Scalars | None = None,
     predicted: Scalars | None = None,
+    tolerances: Tolerances | None = None,
     assumed: str = "",
 ) -> tuple[MetricRow, ...]:
     """Return the rows of a comparison that cannot be made: every quantity and metric, without an error."""
     a = reference.as_dict() if reference is not None else {}
     b = predicted.as_dict() if predicted is not None else {}
-    rows = []
-    for quantity in SCALARS:
-        kind: ErrorType = "relative" if quantity.scale == "itself" else "absolute"
-        rows.append((quantity.name, "scalar", a.get(quantity.name), b.get(quantity.name), quantity.unit, kind))
+    judged = tolerances if tolerances is not None else default_tolerances()
+    names = (case_id, reference_source, predicted_source)
+    rows = [
+        empty_row(quantity, a.get(quantity.name), b.get(quantity.name), names, judged, status, note)
+        for quantity in SCALARS
+    ]
     for name in HISTORIES:
         for metric in HISTORY_METRICS:
-            rows.append((name, metric.name, None, None, metric_unit(metric), metric.error_type))
-    return tuple(
-        MetricRow(
-            case_id, quantity_name, metric_name, reference_source, predicted_source, ref, pred, unit, None, error_type,
-            None, None, None, CANNOT_TELL, status, note, assumed,
-        )
-        for quantity_name, metric_name, ref, pred, unit, error_type in rows
+            rows.append(
+                MetricRow(
+                    case_id, name, metric.name, reference_source, predicted_source, None, None, metric_unit(metric),
+                    None, metric.error_type, None, None, None, None, None, judged[metric.name].criterion, None,
+                    "cannot tell", CANNOT_TELL, status, note,
+                )
+            )  # fmt: skip
+    return tuple(row.marked(assumed) for row in rows)
+
+
+def empty_row(
+    quantity: Quantity,
+    reference: float | None,
+    predicted: float | None,
+    names: Names,
+    judged: Tolerances,
+    status: str,
+    note: str,
+) -> MetricRow:
+    """Return the row of one scalar without an error, and why."""
+    return MetricRow(
+        names[0], quantity.name, "scalar", names[1], names[2], reference, predicted, quantity.unit, None, quantity.error_type, None,
+        None, None, None, None, judged[quantity.name].criterion, None, "cannot tell", CANNOT_TELL, status, note,
     )  # fmt: skip
 
 
@@ -111,7 +147,8 @@ def scalar_row(
     predicted: float,
     scales: Mapping[str, float],
     names: Names,
-    spread: float | None,
+    parts: Parts = UNKNOWN,
+    judged: Tolerances | None = None,
 ) -> MetricRow:
     """Return the row of one scalar.
 
@@ -119,63 +156,32 @@ def scalar_row(
     ----------
     scales : mapping
         The reference's scalars, of which tolerances are shares.
-    spread : float or None
-        Uncertainty of the reference value, in the quantity's unit; None where it is not known.
+    parts : Parts
+        Standard uncertainties of predicted less reference, in the quantity's unit.
     """
-    small = quantity.small is not None and abs(reference) < SMALL_SHARE * _scale(quantity.small, scales)
-    case_id, reference_source, predicted_source = names
-    kind: ErrorType
-    if quantity.scale == "itself" and not small and reference != 0.0:
-        kind = "relative"
-        error = (predicted - reference) / reference
-        moved = None if spread is None else spread / abs(reference) * (1.0 + abs(error))
-        tolerance = quantity.tolerance
+    judged = judged if judged is not None else default_tolerances()
+    own = judged[quantity.name]
+    error, size = predicted - reference, 1.0
+    if quantity.error_type == "relative":
+        if reference == 0.0:
+            note = "relative to a reference of zero"
+            return empty_row(quantity, reference, predicted, names, judged, "undefined", note)
+        size = abs(reference)
+        error /= reference
+        # the reference is in the denominator too: a relative error moves by u (1 + |E|)
+        data = None if parts.data is None else parts.data * (1.0 + abs(error))
+        parts = Parts(parts.numerical, parts.inputs, data)
+        tolerance = own.value
+    elif quantity.scale == "itself":
+        tolerance = max(own.value * abs(reference), own.floor or 0.0)
     else:
-        kind = "absolute"
-        error = predicted - reference
-        moved = spread
-        if quantity.scale != "itself":
-            tolerance = quantity.tolerance * _scale(quantity.scale, scales)
-        else:
-            tolerance = quantity.tolerance * SMALL_SHARE * (_scale(quantity.small, scales) if quantity.small else 0.0)
-    note = f"small reference: judged in {quantity.unit}" if small and quantity.unit != "1" else ""
+        tolerance = own.value * _scale(quantity.scale, scales)
+    parts = Parts(*(None if u is None else u / size for u in (parts.numerical, parts.inputs, parts.data)))
     return MetricRow(
-        case_id, quantity.name, "scalar", reference_source, predicted_source, reference, predicted, quantity.unit,
-        error, kind, moved, tolerance, abs(error) <= tolerance, verdict(error, tolerance, moved), "current", note,
+        names[0], quantity.name, "scalar", names[1], names[2], reference, predicted, quantity.unit, error,
+        quantity.error_type, parts.numerical, parts.inputs, parts.data, parts.expanded, tolerance, own.criterion,
+        abs(error) <= tolerance, agreement(error, parts.expanded), verdict(error, tolerance, parts.expanded),
     )  # fmt: skip
-
-
-def _not_given(quantity: str, metric: str, names: Names, unit: str, error_type: ErrorType) -> MetricRow:
-    case_id, reference_source, predicted_source = names
-    return MetricRow(
-        case_id, quantity, metric, reference_source, predicted_source, None, None, unit, None, error_type, None, None,
-        None, CANNOT_TELL, "not_given", "one of the two does not give it",
-    )  # fmt: skip
-
-
-def _scalar_row(quantity: Quantity, a: Scalars, b: Scalars, names: Names, uncertainty: Uncertainty) -> MetricRow:
-    scales, values = a.as_dict(), b.as_dict()
-    if quantity.name not in scales or quantity.name not in values:
-        kind: ErrorType = "relative" if quantity.scale == "itself" else "absolute"
-        return _not_given(quantity.name, "scalar", names, quantity.unit, kind)
-    reference, predicted = scales[quantity.name], values[quantity.name]
-    return scalar_row(quantity, reference, predicted, scales, names, _spread(quantity, a, uncertainty))
-
-
-def _spread(quantity: Quantity, reference: Scalars, uncertainty: Uncertainty) -> float | None:
-    """Return what the uncertainty means for one scalar, in its unit.
-
-    One number is a relative error of all forces: the catalogue says what each quantity makes of it.
-    """
-    if uncertainty is None:
-        return None
-    scales = reference.as_dict()
-    if not isinstance(uncertainty, Mapping):
-        return quantity.spread(uncertainty, quantity.name, scales)
-    known = uncertainty.get(quantity.name)
-    if known is None:
-        return 0.0 if quantity.flag else None
-    return known * abs(scales[quantity.name])
 
 
 def _scale(name: Scale, scales: Mapping[str, float]) -> float:

@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import stats
 
 from ...errors import InputError
 from ..tables import Ensemble, MetricRow
 
+WITHOUT_BIAS = ("net_tangential_impulse", "late_sign_change", "slipping_share")  # of either sign, or zero
 NEGATIVE = ("peak_negative_tangential_force",)  # bias is that of the magnitude
 
 
@@ -62,22 +64,17 @@ def bias_and_scatter(
 def summarise(group: str, rows: Sequence[MetricRow]) -> Ensemble:
     """Summarise the rows of one quantity, metric and pair of sources; missing ones are counted, never dropped.
 
-    Mean and largest error mix units where small references were judged in newtons, so they are taken over the error
-    type that most rows have and the note says how many were left to the other.
+    Mean and largest error are over the rows that could be compared, all of one kind of error.
     """
     first = rows[0]
     compared = [row for row in rows if row.error is not None]
-    kinds = sorted({row.error_type for row in compared}, key=lambda k: -sum(r.error_type == k for r in compared))
-    kind = kinds[0] if kinds else first.error_type
-    counted = [row for row in compared if row.error_type == kind]
+    kind = first.error_type if not compared else compared[0].error_type
     notes = []
-    if len(counted) < len(compared):
-        notes.append(f"{len(compared) - len(counted)} rows judged as another error type are not in mean and largest")
     if len(compared) < len(rows):
         notes.append(f"{len(rows) - len(compared)} of {len(rows)} runs cannot be compared")
     status = "current" if len(compared) == len(rows) else ("missing" if not compared else "incomplete")
     bias = None
-    if compared and first.metric == "scalar" and kind == "relative":
+    if compared and first.metric == "scalar" and first.quantity not in WITHOUT_BIAS:
         try:
             sign = -1.0 if first.quantity in NEGATIVE else 1.0
             bias = bias_and_scatter(
@@ -87,8 +84,8 @@ def summarise(group: str, rows: Sequence[MetricRow]) -> Ensemble:
             )
         except InputError as error:
             notes.append(f"no bias: {error}")
-    errors = [abs(row.error) for row in counted if row.error is not None]
-    worst = max(counted, key=lambda row: abs(row.error or 0.0)) if counted else None
+    errors = [abs(row.error) for row in compared if row.error is not None]
+    worst = max(compared, key=lambda row: abs(row.error or 0.0)) if compared else None
     return Ensemble(
         group=group,
         quantity=first.quantity,
@@ -100,12 +97,18 @@ def summarise(group: str, rows: Sequence[MetricRow]) -> Ensemble:
         cases=len(rows),
         compared=len(compared),
         passed=sum(bool(row.passed) for row in compared),
+        adequate=sum(row.verdict == "adequate" for row in rows),
+        inadequate=sum(row.verdict == "inadequate" for row in rows),
+        agrees=sum(row.agreement == "agrees" for row in rows),
+        criterion=first.criterion,
+        mean_uncertainty=_mean([row.uncertainty for row in compared]),
         mean_abs_error=float(np.mean(errors)) if errors else None,
         largest_abs_error=max(errors) if errors else None,
         largest_case_id=worst.case_id if worst is not None else "",
         bias=None if bias is None else bias.bias,
         model_scatter=None if bias is None else bias.model_scatter,
         total_scatter=None if bias is None else bias.total_scatter,
+        area_metric=_area(compared) if first.metric == "scalar" else None,
         reference_scatter=None if bias is None else bias.reference_scatter,
         status=status,
         note="; ".join(notes),
@@ -118,10 +121,28 @@ def _times(sign: float, value: float | None) -> float | None:
 
 
 def _reference_scatter(rows: Sequence[MetricRow]) -> float:
-    """Return the references' relative uncertainty, root mean square; 0 where none is known."""
-    known = [
-        row.reference_uncertainty / (1.0 + abs(row.error))
-        for row in rows
-        if row.reference_uncertainty is not None and row.error is not None and row.error_type == "relative"
-    ]
+    """Return the references' relative standard uncertainty, root mean square; 0 where none is known."""
+    known = []
+    for row in rows:
+        if row.u_data is not None and row.error is not None and row.reference:
+            relative = row.error_type == "relative"
+            known.append(row.u_data / (1.0 + abs(row.error)) if relative else row.u_data / abs(row.reference))
     return float(np.sqrt(np.mean(np.square(known)))) if known else 0.0
+
+
+def _mean(values: Sequence[float | None]) -> float | None:
+    known = [value for value in values if value is not None]
+    return float(np.mean(known)) if known else None
+
+
+def _area(rows: Sequence[MetricRow]) -> float | None:
+    """Return the area between the distributions of predicted and reference values, over the mean |reference|.
+
+    Ferson, Oberkampf and Ginzburg, Comput. Methods Appl. Mech. Eng. 197 (2008) 2408-2430,
+    doi:10.1016/j.cma.2007.07.030: the Wasserstein distance of the two samples.
+    """
+    pairs = [(row.reference, row.predicted) for row in rows if row.reference is not None and row.predicted is not None]
+    scale = float(np.mean([abs(a) for a, _ in pairs])) if pairs else 0.0
+    if scale == 0.0:
+        return None
+    return float(stats.wasserstein_distance([a for a, _ in pairs], [b for _, b in pairs])) / scale

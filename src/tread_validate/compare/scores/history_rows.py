@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...errors import InputError
-from ..quantities import FORCE_TOLERANCE, HISTORY_METRICS, SMALL_SHARE, ErrorType, HistoryMetric
+from ..quantities import HISTORY_METRIC, HISTORY_METRICS, ErrorType, HistoryMetric, Tolerances
 from ..tables import MetricRow
 from .align import Pair
 from .iso18571 import IsoRating, grade, iso18571
 from .metrics import sprague_geers
-from .verdict import CANNOT_TELL, verdict
+from .uncertainty import Names, Uncertainties
+from .verdict import CANNOT_TELL, Parts, agreement, verdict
 
-Uncertainty = float | Mapping[str, float] | None
-Names = tuple[str, str, str]
-TANGENTIAL_PEAKS = ("peak_positive_tangential_force", "peak_negative_tangential_force")
+TANGENTIAL = "tangential_force"
+NOT_GIVEN = "one of the two does not give it"
 
 
 @dataclass(frozen=True)
@@ -27,17 +26,17 @@ class _Score:
     error: float
     error_type: ErrorType
     tolerance: float
-    moved: float | None
-    note: str = ""
+    parts: Parts
     grade: str = ""
 
 
-def history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertainty: Uncertainty) -> list[MetricRow]:
+def history_rows(
+    quantity: str, fine: Pair, coarse: Pair, names: Names, known: Uncertainties, judged: Tolerances
+) -> list[MetricRow]:
     """Return a row for every score of ``normal_force`` or ``tangential_force``.
 
-    A tangential reference whose largest magnitude is below `SMALL_SHARE` of the peak normal force is judged in newtons:
-    the RMS of the difference against 2 % of that peak. The shape scores stay what they are and say so. A score
-    that is relative to nothing is a row without an error.
+    The RMS of a tangential history is judged in newtons, against a share of the reference's largest magnitude but no
+    less than the floor of its tolerance. A score that is relative to nothing is a row without an error.
 
     Parameters
     ----------
@@ -46,18 +45,16 @@ def history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertai
     names : tuple of str
         Case, reference source, predicted source.
     """
-    amplitude = _amplitude(uncertainty, quantity)
-    reference = fine.forces(quantity)[0]
-    peak = float(np.max(fine.reference_normal))
-    small = quantity == "tangential_force" and float(np.max(np.abs(reference))) < SMALL_SHARE * peak
-    scores = {"relative_rms": _rms(quantity, fine, peak, small, amplitude)}
+    amplitude = known.of_history(quantity)
+    scores: dict[str, _Score] = {}
     why: dict[str, str] = {}
+    scores["relative_rms"] = _rms(quantity, fine, amplitude, judged)
     try:
-        scores.update(_sprague_geers(quantity, fine, amplitude, small))
+        scores.update(_sprague_geers(quantity, fine, amplitude, judged))
     except InputError as error:
         why["sprague"] = str(error)
     try:
-        scores.update(_iso(iso18571(*coarse.forces(quantity)), amplitude))
+        scores.update(_iso(iso18571(*coarse.forces(quantity)), amplitude, judged))
     except InputError as error:
         why["iso"] = str(error)
     rows = []
@@ -65,23 +62,32 @@ def history_rows(quantity: str, fine: Pair, coarse: Pair, names: Names, uncertai
         score = scores.get(metric.name)
         if score is None:
             note = why["iso" if metric.name.startswith("iso") else "sprague"]
-            rows.append(
-                MetricRow(
-                    names[0], quantity, metric.name, names[1], names[2], None, None, metric_unit(metric), None,
-                    metric.error_type, None, metric.tolerance, None, CANNOT_TELL, "undefined", note,
-                )
-            )  # fmt: skip
+            rows.append(_without(quantity, metric, names, judged, "undefined", note))
             continue
+        parts, size = score.parts, score.error
         rows.append(
             MetricRow(
                 names[0], quantity, metric.name, names[1], names[2], score.reference, score.predicted,
-                metric_unit(metric), score.error, score.error_type, score.moved, score.tolerance,
-                abs(score.error) <= score.tolerance, verdict(score.error, score.tolerance, score.moved), "current",
-                score.note,
-                grade=score.grade,
+                metric_unit(metric), size, score.error_type, parts.numerical, parts.inputs, parts.data, parts.expanded,
+                score.tolerance, judged[metric.name].criterion, abs(size) <= score.tolerance, agreement(size, parts.expanded),
+                verdict(size, score.tolerance, parts.expanded), grade=score.grade,
             )
         )  # fmt: skip
     return rows
+
+
+def not_given_rows(quantity: str, names: Names, judged: Tolerances) -> list[MetricRow]:
+    """Return the rows of a history that one of the two does not give."""
+    return [_without(quantity, metric, names, judged, "not_given", NOT_GIVEN) for metric in HISTORY_METRICS]
+
+
+def _without(
+    quantity: str, metric: HistoryMetric, names: Names, judged: Tolerances, status: str, note: str
+) -> MetricRow:
+    return MetricRow(
+        names[0], quantity, metric.name, names[1], names[2], None, None, metric_unit(metric), None, metric.error_type,
+        None, None, None, None, None, judged[metric.name].criterion, None, "cannot tell", CANNOT_TELL, status, note,
+    )  # fmt: skip
 
 
 def metric_unit(metric: HistoryMetric) -> str:
@@ -89,19 +95,23 @@ def metric_unit(metric: HistoryMetric) -> str:
     return "1" if metric.error_type == "score" else "N"
 
 
-def _rms(quantity: str, pair: Pair, peak: float, small: bool, amplitude: float | None) -> _Score:
+def _times(parts: Parts, factor: float) -> Parts:
+    return Parts(*(None if u is None else factor * u for u in (parts.numerical, parts.inputs, parts.data)))
+
+
+def _rms(quantity: str, pair: Pair, amplitude: Parts, judged: Tolerances) -> _Score:
     reference, predicted = pair.forces(quantity)
     scale = float(np.max(np.abs(reference)))
     rms = float(np.sqrt(np.mean((predicted - reference) ** 2)))
-    if small:
-        moved = None if amplitude is None else amplitude * scale
-        note = "small reference: judged in N"
-        return _Score(scale, rms, rms, "absolute", FORCE_TOLERANCE * SMALL_SHARE * peak, moved, note)
-    moved = None if amplitude is None else amplitude * (1.0 + rms / scale)
-    return _Score(scale, rms, rms / scale, "relative", FORCE_TOLERANCE, moved)
+    own = judged["relative_rms"]
+    if quantity == TANGENTIAL:
+        tolerance = max(own.value * scale, own.floor or 0.0)
+        return _Score(scale, rms, rms, "absolute", tolerance, _times(amplitude, scale))
+    data = None if amplitude.data is None else amplitude.data * (1.0 + rms / scale)
+    return _Score(scale, rms, rms / scale, "relative", own.value, Parts(amplitude.numerical, amplitude.inputs, data))
 
 
-def _sprague_geers(quantity: str, pair: Pair, amplitude: float | None, small: bool) -> dict[str, _Score]:
+def _sprague_geers(quantity: str, pair: Pair, amplitude: Parts, judged: Tolerances) -> dict[str, _Score]:
     reference, predicted = pair.forces(quantity)
     found = sprague_geers(pair.time, reference, predicted)
     sizes = (float(np.sqrt(np.mean(reference**2))), float(np.sqrt(np.mean(predicted**2))))
@@ -110,17 +120,16 @@ def _sprague_geers(quantity: str, pair: Pair, amplitude: float | None, small: bo
         "sprague_geers_p": found.phase,
         "sprague_geers_c": found.comprehensive,
     }
-    note = "small reference: see the RMS in N" if small else ""
     scores = {}
-    for metric in HISTORY_METRICS:
-        if metric.name in errors:
-            error = errors[metric.name]
-            moved = None if amplitude is None else metric.sensitivity * amplitude * (1.0 + abs(error))
-            scores[metric.name] = _Score(*sizes, error, "relative", metric.tolerance, moved, note)
+    for name, error in errors.items():
+        moved = _times(amplitude, HISTORY_METRIC[name].sensitivity)
+        data = None if moved.data is None else moved.data * (1.0 + abs(error))
+        parts = Parts(moved.numerical, moved.inputs, data)
+        scores[name] = _Score(*sizes, error, "relative", judged[name].value, parts)
     return scores
 
 
-def _iso(rating: IsoRating, amplitude: float | None) -> dict[str, _Score]:
+def _iso(rating: IsoRating, amplitude: Parts, judged: Tolerances) -> dict[str, _Score]:
     values = {
         "iso18571_r": rating.overall,
         "iso18571_corridor": rating.corridor,
@@ -129,21 +138,8 @@ def _iso(rating: IsoRating, amplitude: float | None) -> dict[str, _Score]:
         "iso18571_slope": rating.slope,
     }
     scores = {}
-    for metric in HISTORY_METRICS:
-        if metric.name in values:
-            value = values[metric.name]
-            moved = None if amplitude is None else metric.sensitivity * amplitude
-            word = grade(value) if metric.name == "iso18571_r" else ""
-            scores[metric.name] = _Score(1.0, value, value - 1.0, "score", metric.tolerance, moved, grade=word)
+    for name, value in values.items():
+        moved = _times(amplitude, HISTORY_METRIC[name].sensitivity)
+        word = grade(value) if name == "iso18571_r" else ""
+        scores[name] = _Score(1.0, value, value - 1.0, "score", judged[name].value, moved, word)
     return scores
-
-
-def _amplitude(uncertainty: Uncertainty, quantity: str) -> float | None:
-    """Return the relative amplitude error of a force history: its own, or that of its peaks."""
-    if not isinstance(uncertainty, Mapping):
-        return uncertainty
-    if quantity in uncertainty:
-        return uncertainty[quantity]
-    peaks = ("peak_normal_force",) if quantity == "normal_force" else TANGENTIAL_PEAKS
-    known = [uncertainty[name] for name in peaks if name in uncertainty]
-    return max(known) if known else None

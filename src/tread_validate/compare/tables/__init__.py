@@ -6,16 +6,17 @@ there.
 
 from .catalogue import TABLES
 from .delta import Delta, Outcome, TrendRow
-from .errors import Ensemble, MetricRow, Sensitivity, Verdict
+from .errors import Agreement, Ensemble, MetricRow, Sensitivity, ToleranceRow, Verdict
 from .package import write_package
 from .row import Column, Row, column
 from .runs import AssumedRow, CaseRow, PeakRow
 from .slopes import Coefficient, Difference, Residual
-from .statements import ClaimRow, PublishedRow
+from .statements import ClaimRow, ClaimVerdict, PublishedRow
 from .text import cell, read_rows, rows_text, table_text, write_rows, write_table
 
 __all__ = [
-    "TABLES", "AssumedRow", "CaseRow", "ClaimRow", "Coefficient", "Column", "Delta", "Difference", "Ensemble",
-    "MetricRow", "Outcome", "PeakRow", "PublishedRow", "Residual", "Row", "Sensitivity", "TrendRow", "Verdict",
-    "cell", "column", "read_rows", "rows_text", "table_text", "write_package", "write_rows", "write_table",
+    "TABLES", "Agreement", "AssumedRow", "CaseRow", "ClaimRow", "ClaimVerdict", "Coefficient", "Column", "Delta",
+    "Difference", "Ensemble", "MetricRow", "Outcome", "PeakRow", "PublishedRow", "Residual", "Row", "Sensitivity",
+    "ToleranceRow", "TrendRow", "Verdict", "cell", "column", "read_rows", "rows_text", "table_text", "write_package",
+    "write_rows", "write_table",
 ]  # fmt: skip

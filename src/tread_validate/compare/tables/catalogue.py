@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .errors import Ensemble, MetricRow, Sensitivity
+from .errors import Ensemble, MetricRow, Sensitivity, ToleranceRow
 from .row import Row
 from .runs import AssumedRow, CaseRow, PeakRow
 from .slopes import Coefficient, Difference, Residual
@@ -14,6 +14,7 @@ TABLES: dict[str, type[Row]] = {
         CaseRow,
         AssumedRow,
         PublishedRow,
+        ToleranceRow,
         PeakRow,
         MetricRow,
         Coefficient,

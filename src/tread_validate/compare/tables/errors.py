@@ -9,18 +9,39 @@ from ..quantities import HISTORY_METRIC, SCALAR, ErrorType, Noise
 from .row import Column, Row, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
-Verdict = Literal["agrees", "disagrees", "cannot tell"]
+Verdict = Literal["adequate", "inadequate", "cannot tell"]
+Agreement = Literal["agrees", "differs", "cannot tell"]
 SCATTER = Noise(1e-3, 1e-4)
+PART = Noise(1e-4, 1e-6)  # of an uncertainty
 METRIC = "`scalar`, or the score of two histories"
 ERROR_TYPE = "`relative`: over the reference; `absolute`: in `unit`; `score`: score less 1"
 
 
 @table_row
-class MetricRow(Row):
-    """One declared comparison.
+class ToleranceRow(Row):
+    """How large an error of one quantity or score is good enough."""
 
-    `verdict` is ``agrees`` where the error passes whatever the reference's uncertainty makes of it, ``disagrees`` where
-    it fails whatever, and ``cannot tell`` in between, or where the uncertainty is not known, or without an error.
+    table = "tolerances"
+    title = "What is good enough for what the study is for, and why"
+    key = ("name",)
+
+    name: str = column("scalar, or score of two histories")
+    value: float = column("largest error, as a share of what it is judged by")
+    floor: float | None = column("error that is always good enough, in `unit`")
+    unit: str = column("unit of the floor")
+    criterion: str = column("the two in words")
+    origin: str = column("`default`, or `study` where the study chose it")
+    reason: str = column("why")
+
+
+@table_row
+class MetricRow(Row):
+    r"""One declared comparison.
+
+    `agreement` and `verdict` answer two questions, after ASME V&V 20, with U = 2 u_val and u_val^2 the sum of the
+    squares of the three uncertainties. Does the model agree with the reference: \|E\| <= U? Is it good enough for what
+    the study is for: \|E\| + U <= tolerance (and not so where \|E\| - U > tolerance)? Where a part of u_val is not
+    known, nothing can be told.
     """
 
     table = "errors"
@@ -41,15 +62,17 @@ class MetricRow(Row):
         "score (iso18571_*)"
     )
     unit: str = column("unit of reference and predicted")
-    error: float | None = column("signed error of the prediction, as `error_type` says")
+    error: float | None = column("comparison error E of the prediction, signed, as `error_type` says")
     error_type: ErrorType = column(ERROR_TYPE)
-    reference_uncertainty: float | None = column(
-        "what the reference's uncertainty makes of the error, in the error's unit; empty where it is not known",
-        noise=Noise(1e-4, 1e-8),
-    )
-    tolerance: float | None = column("largest |error| that passes, in the error's unit", noise=Noise(2e-5, 0.0))
-    passed: bool | None = column("whether |error| <= tolerance; empty without an error")
-    verdict: Verdict = column("`agrees`, `disagrees` or `cannot tell`")
+    u_numerical: float | None = column("standard uncertainty of E from the model's mesh and step", noise=PART)
+    u_input: float | None = column("standard uncertainty of E from inputs that the two do not share", noise=PART)
+    u_data: float | None = column("standard uncertainty of E from the reference", noise=PART)
+    uncertainty: float | None = column("expanded uncertainty U of E; empty where a part is not known", noise=PART)
+    tolerance: float | None = column("largest |E| that is good enough, in E's unit", noise=Noise(2e-5, 0.0))
+    criterion: str = column("what the tolerance is, in words")
+    passed: bool | None = column("whether |E| <= tolerance, uncertainty apart; empty without an error")
+    agreement: Agreement = column("`agrees`: |E| <= U; `differs`; `cannot tell`")
+    verdict: Verdict = column("`adequate`: |E| + U <= tolerance; `inadequate`: |E| - U > tolerance; `cannot tell`")
     status: str = column(STATUS, default="current")
     note: str = column(NOTE, default="", free=True)
     assumed: str = column(ASSUMED, default="")
@@ -102,7 +125,12 @@ class Ensemble(Row):
     error_type: ErrorType = column(ERROR_TYPE)
     cases: int = column("cases of the group")
     compared: int = column("cases with an error")
-    passed: int = column("cases whose error is within its tolerance")
+    passed: int = column("cases whose |E| is within its tolerance, uncertainty apart")
+    adequate: int = column("cases whose verdict is `adequate`")
+    inadequate: int = column("cases whose verdict is `inadequate`")
+    agrees: int = column("cases whose |E| is within its uncertainty")
+    criterion: str = column("what the tolerance is, in words")
+    mean_uncertainty: float | None = column("mean of U over the cases where it is known", noise=PART)
     mean_abs_error: float | None = column("mean of |error|", noise=Noise(1e-5, 1e-4))
     largest_abs_error: float | None = column("largest |error|", noise=Noise(1e-5, 1e-4))
     largest_case_id: str = column("the case that has it")
@@ -111,6 +139,9 @@ class Ensemble(Row):
     )
     model_scatter: float | None = column("sigma_M, the model's own relative scatter", noise=SCATTER)
     total_scatter: float | None = column("standard deviation of ln(predicted/reference)", noise=SCATTER)
+    area_metric: float | None = column(
+        "area between the two distributions of values over the cases, over the mean |reference|", noise=SCATTER
+    )
     reference_scatter: float | None = column("sigma_E, the reference's relative uncertainty", noise=SCATTER)
     status: str = column(STATUS)
     note: str = column(NOTE, free=True)

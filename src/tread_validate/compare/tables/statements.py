@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from ..quantities import Noise
-from .errors import Verdict
 from .row import Column, Row, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
+ClaimVerdict = Literal["agrees", "disagrees", "cannot tell"]
 OF_SAMPLES = ("rig_peak_at_centre", "belt_slip_at_exit")  # read off at one sample of a history
 SPREAD_KIND = "what the interval is: sd, range, rounding, last digit, about, sign, exact, exists, grade or none"
 
@@ -38,7 +40,7 @@ class ClaimRow(Row):
     computed: float | None = column("the computed value, in `unit`", noise=Noise(1e-4, 1e-6))
     error: float | None = column("of the computed value, as `error_type` says", noise=Noise(1e-4, 1e-6))
     error_type: str = column("`relative` or `absolute`")
-    verdict: Verdict = column("`agrees`, `disagrees` or `cannot tell`")
+    verdict: ClaimVerdict = column("`agrees`, `disagrees` or `cannot tell`")
     status: str = column(STATUS + "; `not_compared` for context")
     note: str = column(NOTE, free=True)
     assumed: str = column(ASSUMED)

@@ -1,0 +1,43 @@
+"""How far the assumed inputs of a study spread its outputs, from the sensitivity study of the model hierarchy."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import InputError
+from ..files import read_text
+from ..study import Case, conditions_digest
+from ..yaml_text import read_mapping
+
+TABLE, RECORD = Path("ladder") / "sobol.csv", Path("ladder") / "record.yaml"
+
+
+def input_spreads(reference_dir: Path, cases: Sequence[Case]) -> dict[str, dict[str, float]]:
+    """Return relative standard deviations by quantity, for ``rig`` and ``belt``; empty where they are not known.
+
+    The inputs are drawn from their ranges (Saltelli's sample), so that the standard deviation of an output is what
+    all of them together make of it. They count for one rig and one belt case and are taken for all of its kind; a table
+    that was made under other conditions than the study's says nothing.
+    """
+    table, record = reference_dir / TABLE, reference_dir / RECORD
+    if not table.is_file() or not record.is_file():
+        return {}
+    if read_mapping(record).get("study_digest") != conditions_digest(cases):
+        return {}
+    by_id = {case.case_id: case for case in cases}
+    found: dict[str, dict[str, float]] = {}
+    for line, row in enumerate(csv.DictReader(io.StringIO(read_text(table))), start=2):
+        case = by_id.get(row.get("run") or "")
+        if case is None:
+            continue
+        try:
+            mean, sd = float(row["mean"]), float(row["sd"])
+        except (KeyError, ValueError):
+            raise InputError(f"{table}:{line}", "no mean and sd", "numbers in mean and sd") from None
+        if mean != 0.0:
+            kind = "rig" if case.is_rig else "belt"
+            found.setdefault(kind, {})[row["quantity"].replace(" ", "_")] = sd / abs(mean)
+    return found
