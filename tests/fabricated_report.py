@@ -151,6 +151,7 @@ def _frames(cases: tuple[Case, ...]) -> dict[str, pd.DataFrame]:
             ]
         ),
         "sensitivity": pd.DataFrame(),
+        "tolerances": pd.DataFrame(),
         "assumed": pd.DataFrame(
             [
                 {"input": "compound soft", "origin": "synthetic", "source": "source " + NASTY, "cases": 18},
@@ -200,7 +201,12 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
             "status": status,
             "assumed": assumed[case.case_id],
             "tolerance": 0.05,
-            "reference_uncertainty": 0.02 if there else "",
+            "u_numerical": 0.0 if there else "",
+            "u_input": 0.0 if there else "",
+            "u_data": 0.01 if there else "",
+            "uncertainty": 0.02 if there else "",
+            "criterion": "5 % of the reference",
+            "agreement": "differs" if there else "cannot tell",
         }
         for quantity, (unit, scale) in SCALARS.items():
             value = scale * peak(case)
@@ -215,7 +221,7 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "error": -0.1 if there else "",
                     "error_type": "relative",
                     "passed": "false" if there else "",
-                    "verdict": "disagrees" if there else "cannot tell",
+                    "verdict": "inadequate" if there else "cannot tell",
                     "note": "",
                 }
             )
@@ -277,6 +283,10 @@ def _ensemble(cases: int) -> pd.DataFrame:
                     "cases": cases,
                     "compared": cases - 2,
                     "passed": 0,
+                    "adequate": 0,
+                    "inadequate": cases - 2,
+                    "agrees": 0,
+                    "criterion": "5 % of the reference",
                     "mean_abs_error": mean,
                     "largest_abs_error": mean,
                     "largest_case_id": "rig-rectangle-22c-0p1mm-150rpm",
@@ -348,6 +358,9 @@ def _regressions() -> dict[str, pd.DataFrame]:
         "ci_low": -0.02,
         "ci_high": 0.002,
         "p_value": 0.09,
+        "p_holm": 0.09,
+        "family": "measured or published",
+        "tests": 1,
         "significant": "false",
         "test": "Welch",
         "status": "current",

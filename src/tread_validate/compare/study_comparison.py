@@ -29,6 +29,9 @@ from .scores.sensitivity import sensitivity
 from .tables import Coefficient, Difference, Ensemble, MetricRow, Residual, Sensitivity
 
 
+LADDER = "ladder"
+
+
 @dataclass(frozen=True)
 class Comparison:
     """All that the tables say, before it is text."""
@@ -73,7 +76,7 @@ def compare_study(
     judged = tolerances(loaded.model.tolerances, loaded.source)
     runs = _with_numerical(cases, runs, variants)
     rows = _metric_rows(cases, runs, sources, references, judged)
-    rows += rig_rows(cases, runs, [*sources, *references], rig, input_spreads(reference_dir, cases), judged)
+    rows += rig_rows(cases, runs, [*sources, *references], rig, input_spreads(reference_dir / LADDER / loaded.model.name, cases), judged)
     published = {item.id: item for item in load_published(reference_dir)}
     coefficients = list(published_coefficients(published))
     residuals: list[Residual] = []
@@ -82,6 +85,7 @@ def compare_study(
         regression = computed_regression(cases, runs, source, exclude)
         coefficients += regression.coefficients
         residuals += regression.residuals
+    tests = differences(coefficients)
     evidence = Evidence(
         study=loaded,
         cases=cases,
@@ -90,6 +94,7 @@ def compare_study(
         coefficients=tuple(coefficients),
         free_rolling_creep=_free_rolling_creep(spring_dir, variants),
         rig_peaks=measured_means(rig),
+        differences=tests,
     )
     return Comparison(
         study=loaded,
@@ -100,7 +105,7 @@ def compare_study(
         ensembles=_ensembles(cases, rows, exclude),
         coefficients=tuple(coefficients),
         residuals=tuple(residuals),
-        differences=differences(coefficients),
+        differences=tests,
         claims=published_claims(evidence, [*sources, *references]),
         sensitivity=_sensitivity(cases, runs, sources, references),
         tolerances=judged,

@@ -76,10 +76,11 @@ def differences_table(tables: Tables, marks: Marks) -> Table:
         cells = (
             Cell(row.shape),
             Cell(COEFFICIENTS.get(row.coefficient, row.coefficient)),
-            Cell(f"{wording.source(row.source_a)} – {wording.source(row.source_b)}"),
+            Cell(f"{wording.source(row.source_b)} less {wording.source(row.source_a)}"),
             value_cell(row.difference, "–" if row.difference is None else _percent(row.difference)),
             value_cell(low, interval),
             value_cell(row.p_value, wording.digits(row.p_value, 2)),
+            value_cell(row.p_holm, wording.digits(row.p_holm, 2), note=f"of {row.tests}" if row.tests else ""),
             Cell(outcome, tone=tone, note=row.note),  # type: ignore[arg-type]
         )
         rows.append(Row(cells, marks.of(row.assumed)))
@@ -89,7 +90,8 @@ def differences_table(tables: Tables, marks: Marks) -> Table:
         Column("Sources compared", wide=True),
         Column("Difference", "% per m/s or °C", numeric=True),
         Column("Confidence interval", "% per m/s or °C", numeric=True),
-        Column("p", numeric=True),
+        Column("p", "of this test alone", numeric=True),
+        Column("p, corrected", "Holm, for all tests", numeric=True),
         Column("Outcome"),
     )
     return Table(

@@ -10,9 +10,10 @@ import pytest
 from tread_validate.compare.claims.claim import Computed, Evidence, judge
 from tread_validate.compare.claims.rig import TABLE_1
 from tread_validate.compare.regression.coefficients import interval
+from tread_validate.compare.regression.differences import corrected, differences
 from tread_validate.compare.regression.line import Coefficient
 from tread_validate.compare.scores.ensemble import summarise
-from tread_validate.compare.tables import MetricRow
+from tread_validate.compare.tables import ClaimRow, Difference, MetricRow, read_rows
 from tread_validate.reference import PublishedValue
 
 VALUE = PublishedValue(
@@ -59,7 +60,7 @@ def evidence_of(printed_sd: float, computed: float, computed_sd: float) -> Evide
         )  # fmt: skip
 
     rows = (mean("rig:published", 3.6, printed_sd), mean("spring:paper", computed, computed_sd))
-    return Evidence(None, (), {}, {}, rows, {}, {})  # type: ignore[arg-type]
+    return Evidence(None, (), {}, {}, rows, {}, {}, differences(rows))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -107,8 +108,8 @@ def test_a_computed_input_that_differs_shows(copy: Any) -> None:
 
 
 ROW = MetricRow(
-    "a", "peak_normal_force", "scalar", "fe:embedded", "spring:paper", 100.0, 110.0, "N", 0.1, "relative", 0.011, 0.1,
-    True, "agrees",
+    "a", "peak_normal_force", "scalar", "fe:embedded", "spring:paper", 100.0, 110.0, "N", 0.1, "relative", 0.0, 0.0,
+    0.011, 0.022, 0.1, "10 % of the reference", True, "differs", "cannot tell",
 )  # fmt: skip
 
 
@@ -130,14 +131,6 @@ def test_a_summary_counts_every_row() -> None:
     assert whole.bias is not None
 
 
-def test_errors_of_different_kinds_are_not_averaged() -> None:
-    """Newtons and fractions do not mix: the kind that most rows have is summed up, and the note says so."""
-    rows = [ROW, replace(ROW, case_id="b"), replace(ROW, case_id="c", error=4.0, error_type="absolute")]
-    found = summarise("all", rows)
-    assert found.largest_abs_error == pytest.approx(0.1)
-    assert "1 rows judged as another error type" in found.note
-
-
 def test_no_row_with_an_error_is_no_error_of_zero() -> None:
     """Nothing compared: no mean, no largest, status missing."""
     found = summarise("all", [replace(ROW, error=None, passed=None, status="stale", reference=None)])
@@ -147,8 +140,55 @@ def test_no_row_with_an_error_is_no_error_of_zero() -> None:
 def test_the_bias_of_a_negative_peak_is_that_of_its_magnitude() -> None:
     """-30 predicted as -33 twice: bias 1.1, not an error for being negative."""
     row = replace(ROW, quantity="peak_negative_tangential_force", reference=-30.0, predicted=-33.0)
-    found = summarise(
-        "all", [replace(row, reference_uncertainty=0.0), replace(row, case_id="b", reference_uncertainty=0.0)]
-    )
+    found = summarise("all", [replace(row, u_data=0.0), replace(row, case_id="b", u_data=0.0)])
     assert found.bias is not None
     assert found.bias == pytest.approx(1.1, rel=1e-12)
+
+
+def test_many_tests_are_corrected_for_their_number() -> None:
+    """Holm's step-down by hand: p of 0.01, 0.02, 0.03 of three tests become 0.03, 0.04, 0.04; models among themselves
+    are another family.
+    """
+
+    def row(p: float, family: str) -> Difference:
+        return Difference(
+            "rectangle", "a_v", "rig:published", f"spring:{p}", 0.01, "s/m", -0.1, 0.1, p, None, family, 0, None,
+            "Welch t", "current", "", "",
+        )  # fmt: skip
+
+    rows = [*(row(p, "measured or published") for p in (0.03, 0.01, 0.02)), row(0.04, "models")]
+    found = corrected(rows)
+    assert [item.p_holm for item in found] == pytest.approx([0.04, 0.03, 0.04, 0.04], rel=1e-12)
+    assert [item.tests for item in found] == [3, 3, 3, 1]
+    assert all(item.significant for item in found)
+    assert not corrected([row(0.03, "a"), row(0.5, "a"), row(0.6, "a")])[0].significant
+
+
+def test_a_difference_that_is_significant_only_alone_cannot_be_told() -> None:
+    """Printed 3.6 (sd 1.0) against 5.6 (sd 0.5), four sets each: p = 0.016 alone; as one of ten tests 0.16."""
+    alone = evidence_of(1.0, 5.6, 0.5)
+    (test,) = alone.differences
+    assert test.p_value is not None
+    assert 0.01 < test.p_value < 0.02
+    assert TABLE_1["table1_a_v_rectangle_rig"](alone, "spring:paper").verdict == "disagrees"
+    others = [replace(test, source_b=f"spring:{i}", p_value=0.9) for i in range(9)]
+    among = replace(alone, differences=corrected([test, *others]))
+    found = TABLE_1["table1_a_v_rectangle_rig"](among, "spring:paper")
+    assert found.verdict == "cannot tell"
+    assert "as one of 10 (Holm)" in found.note
+
+
+def test_statements_are_judged_only_where_the_inputs_are_the_papers(copy: Any) -> None:
+    """A faster belt: what the paper states of the belt is shown and not judged, with the input that differs; what it
+    states of the rig is judged as before.
+    """
+    copy.write_study(lambda text: text.replace("speed_m_s: 16.7", "speed_m_s: 20.0"))
+    copy.run_springs()
+    rows = read_rows(copy.build() / "claims.csv", ClaimRow)
+    own = {row.claim_id: row for row in rows if row.source in ("spring:paper", "study")}
+    force = own["belt_normal_force"]
+    assert (force.status, force.verdict) == ("not_applicable", "cannot tell")
+    assert "speed 20, published 16.7 m/s" in force.note
+    assert own["table1_a_v_rectangle_rig"].status == "current"
+    assert own["belt_speed"].verdict == "disagrees"
+    assert all(row.verdict == "cannot tell" for row in rows if row.status == "not_applicable")

@@ -52,8 +52,9 @@ def test_without_a_record_every_rig_case_says_that_none_was_imported(workspace: 
 
 
 def test_a_measured_record_is_compared_with_its_spread(copy: Any) -> None:
-    """Measured 10 % above the model with +-5 % over the passes: error 1/1.1 - 1 = -9.1 %, its uncertainty
-    5 % x (1 + 0.091) = 5.5 %: cannot be told from the 10 % that would pass. Slip is not measured and has no row.
+    """Measured 10 % above the model with +-5 % over the passes: error 1/1.1 - 1 = -9.1 %, its standard uncertainty
+    5 %/sqrt 3 x (1 + 0.091) = 3.1 % from the data. What the assumed inputs make of it is not known here, so nothing can
+    be told. Slip is not measured and has no row.
     """
     write_record(copy, "measured")
     tables = copy.build()
@@ -67,7 +68,8 @@ def test_a_measured_record_is_compared_with_its_spread(copy: Any) -> None:
     assert "slipping_share" not in quantities
     (peak,) = [row for row in rows if row["quantity"] == "peak_normal_force"]
     assert float(peak["error"]) == pytest.approx(1 / 1.1 - 1, rel=1e-5)
-    assert float(peak["reference_uncertainty"]) == pytest.approx(0.05 * (2 - 1 / 1.1), rel=1e-5)
+    assert float(peak["u_data"]) == pytest.approx(0.05 / 3.0**0.5 * (2 - 1 / 1.1), rel=1e-5)
+    assert (peak["u_input"], peak["uncertainty"], peak["agreement"]) == ("", "", "cannot tell")
     assert peak["verdict"] == "cannot tell"
     measured = [row for row in rows_of(tables, "regression") if row["source"] == "rig:measured"]
     assert measured

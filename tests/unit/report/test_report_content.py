@@ -61,8 +61,8 @@ def test_summary_counts_verdicts_and_gives_bias_and_scatter(tables: Tables, mark
     first = summary(tables, marks, None).items[0]
     assert "mean |error| 10.0\u00a0%" in first.answer
     assert "bias δ = 0.900" in first.answer
-    assert "0 agree within uncertainty, 16 disagree, 2 cannot be told" in first.answer
-    assert "0 agree within uncertainty, 32 disagree, 4 cannot be told" in first.answer
+    assert "0 good enough, 16 not, 2 cannot be told" in first.answer
+    assert "0 good enough, 32 not, 4 cannot be told" in first.answer
     assert first.tone == "bad"
     assert [mark.code for mark in first.marks] == ["S1"]
 

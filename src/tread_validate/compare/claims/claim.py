@@ -9,7 +9,7 @@ from ...reference import PublishedValue
 from ...study import Case, LoadedStudy
 from ..regression.coefficients import interval
 from ..runs import Runs, SourceRun
-from ..tables import ClaimVerdict, Coefficient
+from ..tables import ClaimVerdict, Coefficient, Difference
 
 AGREES: ClaimVerdict = "agrees"
 DISAGREES: ClaimVerdict = "disagrees"
@@ -75,6 +75,8 @@ class Evidence:
         Own free-rolling creep ratio by (source, case id), where a source has searched one.
     rig_peaks : mapping
         Measured mean peak normal force in N by case id; empty until measured ones are imported.
+    differences : tuple of Difference
+        Of every pair of sources.
     """
 
     study: LoadedStudy
@@ -84,6 +86,7 @@ class Evidence:
     coefficients: tuple[Coefficient, ...]
     free_rolling_creep: Mapping[tuple[str, str], float]
     rig_peaks: Mapping[str, float]
+    differences: tuple[Difference, ...] = ()
 
     def belt_case(self, *, measured: bool, creep_ratio: float | None = None) -> Case | None:
         """Return the first belt case on the measured or simplified profile; free rolling where no creep is given."""
@@ -112,6 +115,13 @@ class Evidence:
         return self.runs.get(
             (source, case.case_id), SourceRun(source, case.case_id, "missing", "no run of this source")
         )
+
+    def difference(self, shape: str, name: str, a: str, b: str) -> Difference | None:
+        """Return the test of two sources' mean coefficients, None where there is none."""
+        for row in self.differences:
+            if (row.shape, row.coefficient) == (shape, name) and {row.source_a, row.source_b} == {a, b}:
+                return row
+        return None
 
     def mean(self, source: str, shape: str, name: str) -> Coefficient | None:
         """Return a source's mean regression coefficient for a block shape."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from . import belt, rig
 from .claim import Claim, Compute, Computed, Evidence, judge
 from .inputs import INPUTS
+from .needs import differing_inputs, not_applicable
 from .study import STUDY
 
 NOT_COMPARED = "not_compared"
@@ -35,8 +36,12 @@ def published_claims(evidence: Evidence, sources: Sequence[str]) -> tuple[Claim,
             claims.append(judge(item, "context", "", Computed(None, status=NOT_COMPARED, note=item.comparison)))
             continue
         found = False
+        differing = differing_inputs(evidence, item.id)
         for source, compute in _computations(item.id, sources):
-            claims.append(judge(item, _kind(item.id, source), source, compute(evidence, source)))
+            computed = compute(evidence, source)
+            if differing and not source.endswith(":published"):
+                computed = not_applicable(differing, computed)
+            claims.append(judge(item, _kind(item.id, source), source, computed))
             found = True
         if not found:
             claims.append(judge(item, "context", "", Computed(None, status=NOT_COMPARED, note=item.comparison)))

@@ -9,7 +9,6 @@ import numpy as np
 from ...study import Case
 from ...units import IN_MM, IN_MPA
 from ..quantities import contact_window
-from ..regression.differences import differences
 from ..regression.line import EXCLUDED_INTERFERENCES
 from ..runs import SourceRun
 from ..tables import ClaimVerdict
@@ -170,8 +169,8 @@ def _pressure_limit(evidence: Evidence, source: str) -> Computed:
 def _table1(name: str, shape: str, origin: str) -> Compute:
     """Compare a mean coefficient with a printed one by Welch's test, as in the table of differences.
 
-    A significant difference disagrees. Without one, the two agree if the difference is known to better than the printed
-    value itself; otherwise nothing can be told.
+    A difference that is significant among all of the family's tests disagrees. One that would be so taken alone cannot
+    be told. Without either, the two agree if the difference is known to better than the printed value itself.
     """
 
     def compute(evidence: Evidence, source: str) -> Computed:
@@ -181,16 +180,17 @@ def _table1(name: str, shape: str, origin: str) -> Compute:
         assumed = tuple(row.assumed.split("; ")) if row.assumed else ()
         if printed is None or printed.value is None:
             return nothing("Table 1 is not there")
-        (found,) = differences([printed, row])
-        if found.ci_low is None or found.ci_high is None or found.p_value is None:
-            return Computed(100.0 * row.value, note=found.note, assumed=assumed, verdict=CANNOT_TELL)
+        found = evidence.difference(shape, name, f"{origin}:published", source)
+        if found is None or found.ci_low is None or found.ci_high is None or found.p_value is None:
+            note = "no test of the difference" if found is None else found.note
+            return Computed(100.0 * row.value, note=note, assumed=assumed, verdict=CANNOT_TELL)
         verdict: ClaimVerdict = CANNOT_TELL
         if found.significant:
             verdict = DISAGREES
-        elif 0.5 * (found.ci_high - found.ci_low) <= abs(printed.value):
+        elif found.ci_low <= 0.0 <= found.ci_high and 0.5 * (found.ci_high - found.ci_low) <= abs(printed.value):
             verdict = AGREES
-        note = f"Welch test of the difference: p = {found.p_value:.2g}, 95 % interval "
-        note += f"{100 * found.ci_low:.2g} to {100 * found.ci_high:.2g}"
+        note = f"Welch test of the difference: p = {found.p_value:.2g} taken alone, {found.p_holm:.2g} as one of "
+        note += f"{found.tests} (Holm); 95 % interval {100 * found.ci_low:.2g} to {100 * found.ci_high:.2g}"
         return Computed(100.0 * row.value, note=note, assumed=assumed, verdict=verdict)
 
     return compute

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -61,6 +62,8 @@ def late_sign_change(contact: Contact) -> float:
 
     Values below 1 % of the largest \\|T\\| have no sign.
     """
+    if np.isnan(contact.tangential).any():  # a history that does not give it
+        return math.nan
     tail = contact.tangential[contact.time >= contact.end - LATE_SHARE * contact.duration]
     floor = SIGN_SHARE * max(peak_positive(contact), -peak_negative(contact))
     signs = np.sign(tail[np.abs(tail) > floor]) if floor > 0 else tail[:0]
@@ -69,6 +72,8 @@ def late_sign_change(contact: Contact) -> float:
 
 def slipping_share(contact: Contact) -> float:
     """Return the share of the contact's duration, 0..1, in which more than 1 % of the touching area slips."""
+    if np.isnan(contact.slipping).any():
+        return math.nan
     slips = contact.slipping > SLIP_FLOOR
     held = np.sum(np.diff(contact.time) * 0.5 * (slips[1:].astype(float) + slips[:-1].astype(float)))
     return float(held / contact.duration)

@@ -69,8 +69,8 @@ def history_rows(
             MetricRow(
                 names[0], quantity, metric.name, names[1], names[2], score.reference, score.predicted,
                 metric_unit(metric), size, score.error_type, parts.numerical, parts.inputs, parts.data, parts.expanded,
-                score.tolerance, judged[metric.name].criterion, abs(size) <= score.tolerance, agreement(size, parts.expanded),
-                verdict(size, score.tolerance, parts.expanded), grade=score.grade,
+                score.tolerance, judged[metric.name].criterion, abs(size) <= score.tolerance,
+                agreement(size, parts.expanded), verdict(size, score.tolerance, parts.expanded), grade=score.grade,
             )
         )  # fmt: skip
     return rows

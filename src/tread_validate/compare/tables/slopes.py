@@ -56,7 +56,13 @@ class Difference(Row):
     ci_low: float | None = column("lower end of the difference's confidence interval", noise=END)
     ci_high: float | None = column("upper end of the difference's confidence interval", noise=END)
     p_value: float | None = column("two-sided p of no difference, of this test alone", noise=Noise(1e-3, 1e-4))
-    significant: bool | None = column("whether the confidence interval leaves out zero; empty without a test")
+    p_holm: float | None = column(
+        "p after Holm's correction for all tests of the family: the chance of as small a p anywhere in it",
+        noise=Noise(1e-3, 1e-3),
+    )
+    family: str = column("`measured or published`: one source is that; `models`: both were run here")
+    tests: int = column("tests of the family")
+    significant: bool | None = column("whether p_holm is below 1 - ci_level of the interval; empty without a test")
     test: str = column("`paired t` (set by set) or `Welch t` (means and spreads)")
     status: str = column(STATUS)
     note: str = column(NOTE, free=True)
