@@ -67,6 +67,7 @@ EVERYTHING = {
         "track": SOURCED | {"kind": "flat_track", "approach_ms": 2.0, "hold_ms": 5.0, "retreat_ms": 2.0},
         "measured": SOURCED | {"kind": "measured_belt", "file": "one.dat"},
     },
+    "tolerances": {"peak_positive_tangential_force": {"value": 0.2, "floor": 5.0, "reason": "a screening"}},
     "models": {
         "function": MODEL | {"kind": "python", "object": "block:forces", "files": ["one.dat"]},
         "command": MODEL | {"kind": "command", "command": "./run {case} {history}"},

@@ -137,7 +137,8 @@ def empty_row(
     """Return the row of one scalar without an error, and why."""
     return MetricRow(
         names[0], quantity.name, "scalar", names[1], names[2], reference, predicted, quantity.unit, None,
-        quantity.error_type, None, None, None, None, None, judged[quantity.name].criterion, None, "cannot tell", CANNOT_TELL, status, note,
+        quantity.error_type, None, None, None, None, None, judged[quantity.name].criterion, None, "cannot tell",
+        CANNOT_TELL, status, note,
     )  # fmt: skip
 
 
