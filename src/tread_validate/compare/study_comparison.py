@@ -28,7 +28,6 @@ from .scores.ensemble import summarise
 from .scores.sensitivity import sensitivity
 from .tables import Coefficient, Difference, Ensemble, MetricRow, Residual, Sensitivity
 
-
 LADDER = "ladder"
 
 
@@ -76,7 +75,14 @@ def compare_study(
     judged = tolerances(loaded.model.tolerances, loaded.source)
     runs = _with_numerical(cases, runs, variants)
     rows = _metric_rows(cases, runs, sources, references, judged)
-    rows += rig_rows(cases, runs, [*sources, *references], rig, input_spreads(reference_dir / LADDER / loaded.model.name, cases), judged)
+    rows += rig_rows(
+        cases,
+        runs,
+        [*sources, *references],
+        rig,
+        input_spreads(reference_dir / LADDER / loaded.model.name, cases),
+        judged,
+    )
     published = {item.id: item for item in load_published(reference_dir)}
     coefficients = list(published_coefficients(published))
     residuals: list[Residual] = []
