@@ -9,7 +9,8 @@ export PATH := $(CURDIR)/.venv/bin:$(PATH)
 VENV := .venv
 BIN := $(VENV)/bin
 REPLACE ?= 0
-SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) --profile workflow/profiles/default --cores $(CORES)
+TRUST_MODELS ?= 0
+SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) trust_models=$(TRUST_MODELS) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
 .PHONY: help report check map test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean

@@ -13,6 +13,7 @@ validate(config, "workflow/schemas/workflow.schema.yaml")
 include: "workflow/rules/common.smk"
 include: "workflow/rules/decks.smk"
 include: "workflow/rules/spring.smk"
+include: "workflow/rules/models.smk"
 include: "workflow/rules/fe.smk"
 include: "workflow/rules/compare.smk"
 include: "workflow/rules/mesh.smk"

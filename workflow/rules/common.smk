@@ -5,6 +5,8 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 from tread_validate.errors import InputError
+from tread_validate.models.code import code_of
+from tread_validate.models.trust import require_trust
 from tread_validate.reference import ENGINE_PARTS
 from tread_validate.source_code import code_digest
 from tread_validate.spring.variants import code_digest as variant_code
@@ -56,6 +58,7 @@ REPORT_PDF = f"{REPORTS}/report.pdf"
 wildcard_constraints:
     case=r"[a-z0-9-]+",
     variant=r"[a-z][a-z0-9_]*",
+    model=r"[a-z][a-z0-9_]*",
     mesh=r"coarse|medium|fine",
 
 

@@ -24,6 +24,7 @@ rule tables:
         histories=expand(
             f"{RESULTS}/spring/{{variant}}/{{case}}.csv", variant=VARIANTS, case=CASES
         ),
+        models=expand(rules.model.output.summary, model=MODELS),
         decks=rules.decks.output.inp,
         references=REFERENCE_FILES,
         checked=rules.references.output,

@@ -102,7 +102,7 @@ def compose(study_path: Path, places: Places) -> Report:
     views = case_views(tables.cases)
     rig = rig_peaks(places.reference, study.cases())
     histories = load_histories(tables, HistoryStore(places.spring, places.reference, rig))
-    look = looks([*tables.sources("fe"), *tables.sources("rig")], tables.sources("spring"))
+    look = looks([*tables.sources("fe"), *tables.sources("rig")], [*tables.sources("spring"), *tables.sources("model")])
     browse, data = browser(tables, views, histories, look, marks)
     heat, data["heat"] = heatmap(tables, views, marks)
     points, data["scatter"] = scatter(tables, views, look, marks)

@@ -48,7 +48,8 @@ def claims_table(tables: Tables, marks: Marks) -> Table:
 def _model_sources(rows: Sequence[ClaimRow]) -> list[str]:
     """Return the FE and spring sources in order of appearance, FE first."""
     names = dict.fromkeys(row.source for row in rows)
-    models = [name for name in names if name.startswith(("fe:", "spring:")) and not name.endswith(":published")]
+    kinds = ("fe:", "spring:", "model:")
+    models = [name for name in names if name.startswith(kinds) and not name.endswith(":published")]
     return sorted(models, key=lambda name: not name.startswith("fe:"))
 
 

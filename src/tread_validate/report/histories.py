@@ -44,7 +44,11 @@ class HistoryStore:
     def path(self, source: str, case_id: str, folder: str) -> Path:
         """Return the file of one history; it need not exist."""
         kind, _, name = source.partition(":")
-        return self.spring / name / f"{case_id}.csv" if kind == "spring" else self.reference / folder / "history.csv"
+        if kind == "spring":
+            return self.spring / name / f"{case_id}.csv"
+        if kind == "model":  # of the user's own, beside the spring models' folder
+            return self.spring.with_name("models") / name / f"{case_id}.csv"
+        return self.reference / folder / "history.csv"
 
 
 def load_histories(tables: Tables, store: HistoryStore) -> dict[str, dict[str, History]]:
@@ -72,7 +76,7 @@ def pack(history: History, samples: int = SAMPLES) -> dict[str, Any]:
     keep = thin(history, samples)
     microseconds = np.rint(history.time[keep] / TIME_SCALE).astype(int)
     normal_scale, normal = _whole(history.normal_force[keep])
-    tangential_scale, tangential = _whole(history.tangential_force[keep])
+    tangential_scale, tangential = _whole(history.tangential_force[keep]) if history.gives_tangential else (1.0, None)
     return {
         "ts": TIME_SCALE * IN_MS,
         "t": np.diff(microseconds, prepend=0).tolist(),
@@ -80,7 +84,7 @@ def pack(history: History, samples: int = SAMPLES) -> dict[str, Any]:
         "n": normal,
         "qs": tangential_scale,
         "q": tangential,
-        "s": np.rint(history.slipping_fraction[keep] * 1e3).astype(int).tolist(),
+        "s": np.rint(history.slipping_fraction[keep] * 1e3).astype(int).tolist() if history.gives_slip else None,
     }
 
 
@@ -96,9 +100,7 @@ def thin(history: History, samples: int = SAMPLES) -> NDArray[np.int64]:
     if n <= samples:
         return np.arange(n)
     even = np.rint(np.linspace(0, n - 1, samples)).astype(np.int64)
-    extremes = [
-        history.normal_force.argmax(),
-        history.tangential_force.argmax(),
-        history.tangential_force.argmin(),
-    ]
+    extremes = [history.normal_force.argmax()]
+    if history.gives_tangential:
+        extremes += [history.tangential_force.argmax(), history.tangential_force.argmin()]
     return np.unique(np.concatenate([even, np.array(extremes, dtype=np.int64)]))

@@ -68,7 +68,7 @@ def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:
 def _order(row: Ensemble) -> tuple[bool, str, str]:
     """Spring models against FE come first."""
     predicted, reference = pair_of(row)
-    return not (predicted.startswith("spring") and reference.startswith("fe")), predicted, reference
+    return not (predicted.startswith(("spring", "model")) and reference.startswith("fe")), predicted, reference
 
 
 def _ensemble_row(row: Ensemble, marks: Marks, headline: bool) -> Row:

@@ -16,7 +16,7 @@ def regression_sources(tables: Tables) -> list[str]:
     """Return the sources of the regressions: published first, then measured, FE and spring models."""
     names = list(dict.fromkeys(row.source for row in tables.regression))
     rank = {"rig:published": 0, "fe:published": 1, "rig:measured": 2}
-    kinds = {"fe": 3, "spring": 4}
+    kinds = {"fe": 3, "spring": 4, "model": 5}
     return sorted(names, key=lambda name: rank.get(name, kinds.get(name.split(":")[0], 5)))
 
 

@@ -33,6 +33,8 @@ STATUSES = {
     "unbound": "run that does not say what it was made from",
     "corrupt": "reference fails its checksum",
     "no_contact": "no contact",
+    "failed": "the model failed on this case",
+    "not_given": "not given by the model",
     "undefined": "not defined here",
     "not_given": "not given by one of the two",
     "not_applicable": "not applicable: the study's inputs are not the paper's",
@@ -52,7 +54,7 @@ def source(key: str) -> str:
     }
     if key in known:
         return known[key]
-    prefix = {"spring": "Spring", "fe": "FE", "rig": "Rig"}.get(kind, kind)
+    prefix = {"spring": "Spring", "fe": "FE", "rig": "Rig", "model": "Own model"}.get(kind, kind)
     return f"{prefix} ({name})" if name else prefix
 
 

@@ -35,6 +35,8 @@ def history_panel(
         for source in [name for name in looks if name in histories]:
             history, look = histories[source], looks[source]
             keep = thin(history)
+            if force != "normal" and not history.gives_tangential:
+                continue
             values = history.normal_force if force == "normal" else history.tangential_force
             axes.plot(
                 IN_MS * history.time[keep],

@@ -11,8 +11,8 @@ TV.browser = (function () {
     return {
       time: packed.t.map((step) => (sum += step) * packed.ts),
       normal: packed.n.map((value) => value * packed.ns),
-      tangential: packed.q.map((value) => value * packed.qs),
-      slipping: packed.s.map((value) => value / 1000),
+      tangential: packed.q && packed.q.map((value) => value * packed.qs),
+      slipping: packed.s && packed.s.map((value) => value / 1000),
     };
   }
 
@@ -45,8 +45,8 @@ TV.browser = (function () {
       const line = { color: source.color, dash: source.dash, width: source.reference ? 2.4 : 1.8 };
       const common = { mode: "lines", type: "scatter", x: history.time, line, name: source.label, legendgroup: source.key };
       traces.push(Object.assign({}, common, { y: history.normal, hovertemplate: "%{y:.1f} N" }));
-      traces.push(Object.assign({}, common, { y: history.tangential, yaxis: "y2", showlegend: false, hovertemplate: "%{y:.2f} N" }));
-      if (source.slips) { traces.push(Object.assign({}, common, { y: history.slipping.map((v) => 100 * v), yaxis: "y3", showlegend: false, hovertemplate: "%{y:.0f} %" })); }
+      if (history.tangential) { traces.push(Object.assign({}, common, { y: history.tangential, yaxis: "y2", showlegend: false, hovertemplate: "%{y:.2f} N" })); }
+      if (source.slips && history.slipping) { traces.push(Object.assign({}, common, { y: history.slipping.map((v) => 100 * v), yaxis: "y3", showlegend: false, hovertemplate: "%{y:.0f} %" })); }
     }
     const layout = TV.layout({
       grid: { rows: 3, columns: 1 }, hovermode: "x unified", dragmode: TV.coarse ? false : "zoom",
