@@ -34,7 +34,6 @@ STATUSES = {
     "corrupt": "reference fails its checksum",
     "no_contact": "no contact",
     "failed": "the model failed on this case",
-    "not_given": "not given by the model",
     "undefined": "not defined here",
     "not_given": "not given by one of the two",
     "not_applicable": "not applicable: the study's inputs are not the paper's",
