@@ -34,6 +34,7 @@ def command(
     from ..compare.baseline.output import delta_csv, delta_junit, delta_lines, delta_markdown, summary
     from ..compare.baseline.store import load_baseline, same_study
     from ..compare.binding import todays_tables
+    from ..compare.summary import write_summary
     from ..errors import CheckFailedError
     from ..files import write_text
     from ..workspace import Workspace, only_tables
@@ -47,8 +48,10 @@ def command(
     if junit is not None:
         sources = dict.fromkeys(row["source"] for row in accepted.tables["peaks"])
         write_text(junit, delta_junit(found, [("peaks", source) for source in sources]))
+    moved = movements(accepted, tables)
     if markdown is not None:
-        write_text(markdown, delta_markdown(found, accepted.acceptance, movements(accepted, tables), page))
+        write_text(markdown, delta_markdown(found, accepted.acceptance, moved, page))
+    write_summary(tables, str(facts["study"]), found, moved)
     for line in delta_lines(found):
         typer.echo(line)
     if not report_only and found.failed:

@@ -12,6 +12,7 @@ from ..study import load_study
 from .provenance import assumed_inputs, provenance
 from .regression.line import EXCLUDED_INTERFERENCES
 from .study_comparison import Comparison, compare_study
+from .summary import write_summary
 from .table_rows import case_row, claim_row, peak_row, tolerance_row
 from .tables import (
     AssumedRow,
@@ -80,3 +81,4 @@ def write_tables(found: Comparison, reference_dir: Path, out_dir: Path) -> None:
     write_text(out_dir / "provenance.json", json.dumps(facts, indent=2, sort_keys=True) + "\n")
     write_rows(out_dir, MetricRow, found.rows)
     write_package(out_dir, found.study.model.name, str(facts["commit"]))
+    write_summary(out_dir, found.study.model.name)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..compare.quantities import tolerances
 from ..compare.runs import fe_runs
 from ..compare.tables import write_table
 from ..errors import InputError
@@ -51,9 +52,10 @@ def build(
         tables[name] = list(rows)
         write_table(folders.output / f"{name}.csv", columns, tables[name])
 
+    judged = tolerances(study.model.tolerances, study.source)
     if "pareto" in parts:
         say("error and cost of every rung")
-        put("errors", pareto.CASE_COLUMNS, pareto.case_rows(cases, references, engine))
+        put("errors", pareto.CASE_COLUMNS, pareto.case_rows(cases, references, engine, judged=judged))
         put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
         put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.references, engine))
         figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")

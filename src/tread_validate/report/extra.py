@@ -94,6 +94,7 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
         )
         met = str(record["target_met"]).lower()
         outcome = {"true": ("✓ met", "good"), "false": ("✗ not met", "bad")}.get(met, ("–", "mute"))
+        words = "; ".join(part for part in (str(record["target"]), str(record.get("target_missed", ""))) if part)
         cells = (
             Cell(str(record["group"])),
             Cell(f"{number(record['compared']) or 0:.0f} of {number(record['cases']) or 0:.0f}"),
@@ -102,7 +103,7 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
             Cell(wording.percent(worst, sign=True), sort=worst, note=str(record["worst_case_id"] or "")),
             Cell(wording.percent(within, 0), sort=within),
             Cell(f"{wording.digits(normal, 2)} / {wording.digits(tangential, 2)}", sort=normal),
-            Cell(outcome[0], tone=outcome[1], note=str(record["target"] or "")),  # type: ignore[arg-type]
+            Cell(outcome[0], tone=outcome[1], note=words),  # type: ignore[arg-type]
         )
         rows.append(Row(cells, marks.of(record["assumed"]), group=str(record["rung"]).replace("_", " ")))
     columns = (
@@ -111,7 +112,7 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
         Column("Time of one pass", "ms", numeric=True),
         Column("Mean |error|", "peak normal force", numeric=True),
         Column("Largest error", "peak normal force", numeric=True),
-        Column("Tangential peaks right", "to 10 % or 2 N", numeric=True),
+        Column("Tangential peaks right", "by the criterion of the results", numeric=True),
         Column("Least ISO/TS 18571", "normal / tangential", numeric=True),
         Column("Target", wide=True),
     )

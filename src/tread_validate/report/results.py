@@ -79,9 +79,12 @@ def _ensemble_row(row: Ensemble, marks: Marks, headline: bool) -> Row:
         note = note or wording.status(row.status)
 
     def show(value: float | None) -> str:
-        if value is None or row.error_type == "score":
+        if value is None:
             return wording.digits(value)
-        return wording.percent(value) if row.error_type == "relative" else f"{wording.digits(value)} {row.unit}".strip()
+        if row.error_type == "score":
+            return wording.digits(1.0 - value)  # of |score - 1|: the score itself
+        unit = wording.unit(row.unit)
+        return wording.percent(value) if row.error_type == "relative" else f"{wording.digits(value)} {unit}".strip()
 
     cells = [
         Cell(wording.quantity(row.quantity, row.metric), note=note),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -113,3 +114,27 @@ def test_a_scalar_that_does_not_exist_is_an_attribute_error(half_sine: Any) -> N
     assert found.peak_normal_force == pytest.approx(100.0, rel=1e-5)
     with pytest.raises(AttributeError):
         _ = found.peak_normal_farce
+
+
+def test_the_summary_says_what_the_tables_say(workspace: Any, tmp_path: Path) -> None:
+    """Mean error, counts of verdicts and states of the references are those of the tables; no check, no baseline."""
+    facts = json.loads((workspace.tables / "summary.json").read_text(encoding="utf-8"))
+    assert facts["baseline"] is None
+    errors = read_rows(workspace.tables / "errors.csv", MetricRow)
+    model = next(item for item in facts["models"] if item["reference"] == "fe:embedded")
+    for item in model["quantities"]:
+        own = [
+            row
+            for row in errors
+            if (row.reference_source, row.quantity, row.metric) == ("fe:embedded", item["quantity"], item["metric"])
+        ]
+        known = [abs(row.error) for row in own if row.error is not None]
+        assert item["mean_abs_error"] == pytest.approx(sum(known) / len(known), rel=1e-5)
+        assert item["largest_abs_error"] == pytest.approx(max(known), rel=1e-6)
+        verdicts = [item[name] for name in ("adequate", "inadequate", "cannot_tell")]
+        assert verdicts == [
+            sum(row.verdict == name for row in own) for name in ("adequate", "inadequate", "cannot tell")
+        ]
+        if item["metric"] == "iso18571_r":
+            assert sum(item["grades"].values()) == len(own)
+    assert facts["references"]["fe:embedded"] == {"current": len(model["runs"]) and sum(model["runs"].values())}

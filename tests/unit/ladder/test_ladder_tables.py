@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tread_validate.compare.quantities import scalars
+from tread_validate.compare.quantities import scalars, tolerances
 from tread_validate.compare.runs import SourceRun
+from tread_validate.history import History
 from tread_validate.ladder import compatibility, effects, pareto, published, sensitivity
 from tread_validate.ladder.rate_response import rig_table
 from tread_validate.material import prony_series
 from tread_validate.spring import run
-from tread_validate.study import load_study
+from tread_validate.study import Tolerance, load_study
 
 
 @pytest.fixture(scope="module")
@@ -138,7 +139,27 @@ def test_a_target_is_missed_by_a_single_bad_run(belt):
     }  # fmt: skip
     assert pareto.pareto_rows([row], [belt])[0]["target_met"] is True
     bad = {**row, "iso18571_tangential": 0.80}
-    assert pareto.pareto_rows([row, bad], [belt])[0]["target_met"] is False
+    missed = pareto.pareto_rows([row, bad], [belt])[0]
+    assert missed["target_met"] is False
+    assert missed["target_missed"] == "ISO/TS 18571 T 0.8, asked more than 0.85"
+
+
+def test_the_ladder_judges_a_peak_by_the_tolerance_of_the_results(belt):
+    """One criterion: a reference whose tangential force is 1 % larger is off by 0.01/1.01 of it, of a tolerance that is
+    a tenth of it or 2 N, whichever is more; a study that asks for twice that halves the share.
+    """
+    made = run(belt, "coupled_coarse")
+    history = History(made.time, made.normal_force, 1.01 * made.tangential_force, made.slipping_fraction)
+    largest = scalars(history).peak_positive_tangential_force
+    (row,) = pareto.case_rows([belt], reference(belt, history), "embedded", ("coupled_coarse",))
+    own = [abs(value) for value in (largest, scalars(history).peak_negative_tangential_force)]
+    exact = max(value * 0.01 / 1.01 / max(0.1 * value, 2.0) for value in own)
+    assert row["tangential_error"] == pytest.approx(exact, rel=1e-6)
+    chosen = {name: Tolerance(value=0.2, floor=4.0, reason="a screening") for name in pareto.PEAKS}
+    (wide,) = pareto.case_rows(
+        [belt], reference(belt, history), "embedded", ("coupled_coarse",), judged=tolerances(chosen)
+    )
+    assert wide["tangential_error"] == pytest.approx(0.5 * exact, rel=1e-6)
 
 
 def test_published_figures_name_the_one_that_each_rung_misses(belt):
