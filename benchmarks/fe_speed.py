@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from tread_validate import deck
 from tread_validate.fe.explicit import Simulation
 from tread_validate.fe.model import read_model
+from tread_validate.fe.sampling import take_sample
 from tread_validate.fe.user_friction import compile_vfric
 from tread_validate.study import Case, load_study
 
@@ -90,7 +91,7 @@ def fine_mesh(folder: Path) -> None:
     simulation._begin(0, simulation.model.steps[0])
     dt = simulation._increment(simulation.model.steps[0], simulation.model.steps[0].period)
     simulation._advance(20, dt)
-    simulation._sample(dt, energies=True)
+    take_sample(simulation, dt, energies=True)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     elements = simulation.model.mesh.element_labels.size
     print(f"0.5 mm, {elements} elements: peak memory {peak:.0f} MB (target 500 MB)")

@@ -18,6 +18,12 @@ def command(
     ],
     user: Annotated[Path | None, typer.Option("--user", help="friction routine, vfric.f")] = None,
     frames: Annotated[Path | None, typer.Option("--frames", help="folder for .vtu frames of the last step")] = None,
+    normal: Annotated[
+        str | None, typer.Option("--normal", help="out of the road, +x to -z; default: nearest to the contact forces")
+    ] = None,
+    travel: Annotated[
+        str | None, typer.Option("--travel", help="the way the block goes, +x to -z; with --normal")
+    ] = None,
     threads: Annotated[int, typer.Option("--threads", min=1, max=1024, help="the answer does not depend on them")] = 1,
     stall_limit: Annotated[
         float, number("--stall-limit", "time_limit_s", "longest time without progress, s: a routine that never ends")
@@ -44,10 +50,20 @@ def command(
             moved()
             progress(share, left)
 
-        result = run_deck(deck, user, threads=threads, frames=frames, progress=told)
+        result = run_deck(deck, user, threads=threads, frames=frames, progress=told, normal=normal, travel=travel)
     result.write(output)
     record = result.record
+    axes, balance, largest = record["axes"], record["energy_balance"], record["largest"]
     typer.echo(
-        f"{output}: {result.history.time.size} samples, peak normal force {result.history.normal_force.max():.2f} N; "
+        f"{output}: {result.history.time.size} samples, peak normal force {result.history.normal_force.max():.2f} N "
+        f"along {axes['normal']} (travel {axes['travel']}); "
         f"{record['elements']} elements, {record['increments']} increments in {record['wall_time_s']:.1f} s"
     )
+    typer.echo(
+        f"energy unaccounted for {100 * balance['balance_error']:.2g} %, "
+        f"artificial {100 * balance['artificial_share']:.2g} %, impacts {100 * balance['impact_share']:.2g} %; "
+        f"largest logarithmic strain {100 * largest['log_strain']:.2g} %, contact pressure "
+        f"{largest['contact_pressure_Pa'] * 1e-6:.3g} MPa"
+    )
+    for reason in record["reference_quality"]["reasons"]:
+        typer.echo(f"not a reference: {reason}")

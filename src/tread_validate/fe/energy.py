@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..kernels import kernel
-from .element_kernel import GEO_G, GEO_HOURGLASS, GEO_VOLUME, LANES, STATE_BULK, STATE_STRAIN, STATE_WORK
+from .element_kernel import GEO_G, GEO_HOURGLASS, GEO_VOLUME, LANES, STATE_BULK, STATE_STRAIN, STATE_U, STATE_WORK
 
 COLUMNS = (
     "time_s",
@@ -94,6 +96,40 @@ def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]
                     q -= fx * elements.geo[b, g, i] + fy * elements.geo[b, g + 1, i] + fz * elements.geo[b, g + 2, i]
                     hourglass += stiff * (0.125 * q) ** 2
     return stored, stress_work, hourglass, bulk_work
+
+
+@kernel()
+def largest_strain(elements):  # type: ignore[no-untyped-def]
+    """Return the largest principal logarithmic strain by size, over all elements, from the right stretches."""
+    most = 0.0
+    for b in range(elements.kind.size):
+        for i in range(LANES):
+            if elements.geo[b, GEO_VOLUME, i] == 0.0:
+                continue
+            u0, u1, u2 = (
+                elements.state[b, STATE_U, i],
+                elements.state[b, STATE_U + 1, i],
+                elements.state[b, STATE_U + 2, i],
+            )
+            u3, u4, u5 = (
+                elements.state[b, STATE_U + 3, i],
+                elements.state[b, STATE_U + 4, i],
+                elements.state[b, STATE_U + 5, i],
+            )
+            mean = (u0 + u1 + u2) / 3.0
+            d0, d1, d2 = u0 - mean, u1 - mean, u2 - mean
+            size = math.sqrt((d0 * d0 + d1 * d1 + d2 * d2 + 2.0 * (u3 * u3 + u4 * u4 + u5 * u5)) / 6.0)
+            high = low = mean
+            if size > 0.0:
+                # eigenvalues of a symmetric matrix by its angle (Smith, doi:10.1145/355578.366316)
+                third = (d0 * (d1 * d2 - u5 * u5) - u3 * (u3 * d2 - u5 * u4) + u4 * (u3 * u5 - d1 * u4)) / (
+                    2.0 * size**3
+                )
+                angle = math.acos(min(1.0, max(-1.0, third))) / 3.0
+                high = mean + 2.0 * size * math.cos(angle)
+                low = mean + 2.0 * size * math.cos(angle + 2.0 * math.pi / 3.0)
+            most = max(most, math.log(high), -math.log(low))
+    return most
 
 
 @kernel(fastmath=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time as clock_module
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 import numba
 import numpy as np
@@ -14,22 +13,14 @@ from numpy.typing import NDArray
 from ..errors import EngineError, InputError
 from .blocks import Blocks, pack, set_bulk_viscosity, set_masses
 from .constraints import gather_amplitudes, gather_bodies, gather_loads, gather_prescribed
-from .contact_kernel import face_areas
 from .element_kernel import LANES, WORK_ROWS
-from .energy import element_energies, kinetic_energy
+from .energy import kinetic_energy
 from .explicit_kernel import BAD_FRICTION, CHUNKS, INVERTED, advance
 from .kernel_data import (
     CLOCK_ROWS,
-    EXTERNAL,
-    FRICTION,
-    IMPACT,
-    LAST_INCREMENT,
-    OPEN,
-    SLIPS,
     STEP_NUMBER,
     STEP_TIME,
     TOTAL_TIME,
-    USER,
     WORK_SUMS,
     Bodies,
     Elements,
@@ -39,7 +30,8 @@ from .kernel_data import (
 from .model import Model
 from .pairs import PairData, gather_pairs, held_nodes
 from .relaxation import step_coefficients
-from .stability import StableIncrement, dot
+from .sampling import Samples, take_sample
+from .stability import StableIncrement
 from .step_kernel import evaluate_amplitudes
 from .steps import Step
 from .user_friction import UserRoutine
@@ -50,25 +42,6 @@ SAFETY = 0.95  # of the bound on the stable increment
 DEFAULT_SAMPLES = 200
 ENERGY_SAMPLES = 250
 CHECKS = 40  # of the stable increment, a step
-
-
-@dataclass
-class Samples:
-    """What is kept of a step at its sampling times; forces act on the body.
-
-    `time` is the step's; normal and tangential are the sums of normal and frictional contact forces, (n, 3).
-    """
-
-    time: list[float] = field(default_factory=list)
-    normal: list[Floats] = field(default_factory=list)
-    tangential: list[Floats] = field(default_factory=list)
-    slipping: list[float] = field(default_factory=list)
-    reaction: list[Floats] = field(default_factory=list)
-    energy: list[tuple[float, ...]] = field(default_factory=list)
-    pressure: list[NDArray[np.float32]] = field(default_factory=list)
-    traction: list[NDArray[np.float32]] = field(default_factory=list)
-    slip_state: list[NDArray[np.int8]] = field(default_factory=list)
-    nodes: dict[str, list[tuple[Floats, Floats]]] = field(default_factory=dict)
 
 
 class Simulation:
@@ -109,6 +82,7 @@ class Simulation:
         self.kernel_seconds = 0.0
         self.smallest = math.inf
         self.largest = 0.0
+        self.strain = 0.0
         self.samples = Samples()
         self.start_energy = kinetic_energy(self.nodes.v, mass)
         self.pairs: list[PairData] = []
@@ -209,7 +183,7 @@ class Simulation:
                 while mark * interval <= done - dt + 1e-9 * dt:
                     mark += 1
                 last = done >= step.period * (1.0 - 1e-12)
-                self._sample(dt, energies=len(self.samples.time) % every == 0 or last)
+                take_sample(self, dt, energies=len(self.samples.time) % every == 0 or last)
                 if self.observer is not None and number == len(self.model.steps) - 1:
                     self.observer(done)
                 if progress is not None:
@@ -284,65 +258,3 @@ class Simulation:
             f"fTangential = {force[0]:g}, {force[1]:g}",
             f"finite, the first between {-pair.stick_force[contact]:g} and 0",
         )
-
-    def _sample(self, dt: float, energies: bool) -> None:
-        """Keep the state of the increment just made: forces belong to its start."""
-        s = self.samples
-        time = self.clock[STEP_TIME] - dt
-        s.time.append(max(time, 0.0) if s.time == [] else time)
-        normal = np.zeros(3)
-        tangential = np.zeros(3)
-        touching = slipping = 0.0
-        for data in self.pairs:
-            pair = data.pair
-            if pair.kind[0] != USER:
-                self._areas(data)
-            normal += pair.force[:, 0].sum(axis=0)
-            tangential += pair.force[:, 1].sum(axis=0)
-            touching += float(pair.area[pair.slipping > OPEN].sum())
-            slipping += float(pair.area[pair.slipping == SLIPS].sum())
-        s.normal.append(normal)
-        s.tangential.append(tangential)
-        s.slipping.append(slipping / touching if touching > 0 else 0.0)
-        pair = self.pairs[0].pair
-        share = np.divide(1.0, pair.area, out=np.zeros_like(pair.area), where=pair.area > 0)
-        s.pressure.append((np.linalg.norm(pair.force[:, 0], axis=1) * share).astype(np.float32))
-        s.traction.append((pair.force[:, 1] * share[:, None]).astype(np.float32))
-        s.slip_state.append(pair.slipping.astype(np.int8))
-        s.reaction.append(self._reaction())
-        for name, nodes in self.model.steps[int(self.clock[STEP_NUMBER]) - 1].node_history.items():
-            u = self.nodes.u.reshape(-1, 3)[nodes].copy()
-            s.nodes.setdefault(name, []).append((u, self.nodes.v.reshape(-1, 3)[nodes].copy()))
-        if energies:
-            self._sample_energy()
-
-    def _areas(self, data: PairData) -> None:
-        pair = data.pair
-        if pair.slaves.size:
-            face_areas(pair.faces, pair.slaves, self.nodes.x0, self.nodes.u, pair.area)
-
-    def _reaction(self) -> Floats:
-        """Return the sum of the forces that hold prescribed nodes, (3,)."""
-        p = self.prescribed
-        nodal = p.dof[: p.bodies[0]] % 3
-        total = np.bincount(nodal, weights=p.reaction, minlength=3)
-        return np.asarray(total + self.bodies.reaction.sum(axis=0), dtype=np.float64)
-
-    def _sample_energy(self) -> None:
-        stored, stress_work, hourglass, bulk = element_energies(self.elements, self.weights, self.nodes.u)
-        now = self.clock[TOTAL_TIME]
-        kinetic = kinetic_energy(self.nodes.v, self.blocks.mass)
-        if not math.isfinite(kinetic + stored):
-            raise EngineError(f"the energy is no longer finite at {now:.6g} s")
-        # velocities live half an increment before the displacements; internal energy is taken back to them
-        lead = 0.5 * self.clock[LAST_INCREMENT] * float(dot(self.nodes.force, self.nodes.v))
-        stored, stress_work = stored - lead, stress_work - lead
-        internal = stress_work + hourglass
-        external, friction, impact = (float(self.work[row]) for row in (EXTERNAL, FRICTION, IMPACT))
-        total = kinetic + internal + bulk + friction + impact - external - self.start_energy
-        self.samples.energy.append(
-            (
-                self.clock[STEP_TIME], internal, stored, stress_work - stored, hourglass, bulk, kinetic, friction,
-                impact, external, total,
-            )
-        )  # fmt: skip

@@ -64,8 +64,13 @@ class Model:
     @property
     def needs_user_routine(self) -> bool:
         """Whether a contact pair of any step asks for VFRIC."""
-        used = {pair.interaction for step in self.steps for pair in step.pairs}
-        return any(self.interactions[name].kind == USER for name in used)
+        return self.user_friction is not None
+
+    @property
+    def user_friction(self) -> Friction | None:
+        """The first interaction of a contact pair that asks for VFRIC."""
+        used = [pair.interaction for step in self.steps for pair in step.pairs]
+        return next((self.interactions[name] for name in used if self.interactions[name].kind == USER), None)
 
 
 def read_model(path: Path | str) -> Model:

@@ -16,10 +16,13 @@ from ..inp.symmetry import whole, whole_force
 from ..provenance import sha256_text
 from ..units import DECK_LENGTH, DECK_STRESS
 from ..yaml_text import write_yaml
+from .axes import Axes, found_axes
 from .energy import COLUMNS as ENERGY_COLUMNS
 from .explicit import Simulation
+from .quality import energy_balance, reference_quality, unsteadiness
 
 JOULE = 1.0 / DECK_LENGTH  # N mm -> N m
+LENGTH = 1.0 / DECK_LENGTH
 AXES = ("x", "y", "z")
 
 
@@ -30,12 +33,16 @@ class FeResult:
     Attributes
     ----------
     history : History
-        Normal force = +y, tangential force = -x component of the contact force on the body.
+        Normal and tangential force: components of the contact force on the body along the normal, and against the
+        direction of travel, of `axes`.
     energies : DataFrame
         ``time_s`` and energies in J: internal = recoverable strain + viscoelastic dissipation + artificial (hourglass);
         total = kinetic + internal + bulk viscous + frictional - external work, 0 at the start of the run.
     reactions : DataFrame
         ``time_s`` and the sum of the forces that hold prescribed nodes, N.
+    nodes : DataFrame
+        What ``*NODE OUTPUT, NSET=`` asks for: ``time_s``, set, node label, displacement (m), velocity (m/s), reaction
+        (N).
     contact : DataFrame
         ``time_s``, normal (CFN) and frictional (CFS) contact force on the body, N.
     face : DataFrame
@@ -48,6 +55,7 @@ class FeResult:
     history: History
     energies: pd.DataFrame
     reactions: pd.DataFrame
+    nodes: pd.DataFrame
     contact: pd.DataFrame
     face: pd.DataFrame
     record: Mapping[str, Any]
@@ -60,7 +68,10 @@ class FeResult:
         target = Path(path)
         record_file = target.with_suffix(".yaml")
         record_file.unlink(missing_ok=True)
-        for name, table in (("energies", self.energies), ("contact", self.contact), ("face", self.face)):
+        tables = {"energies": self.energies, "contact": self.contact, "face": self.face, "reactions": self.reactions}
+        if len(self.nodes):
+            tables["nodes"] = self.nodes
+        for name, table in tables.items():
             write_text(target.with_name(f"{target.stem}_{name}.csv"), table.to_csv(index=False, float_format="%.8g"))
         text = self.history.to_csv()
         write_text(target, text)
@@ -68,15 +79,18 @@ class FeResult:
         write_yaml(record_file, record)
 
 
-def collect(simulation: Simulation, record: Mapping[str, Any], provenance: Mapping[str, str]) -> FeResult:
-    """Turn a finished simulation into a result."""
+def collect(
+    simulation: Simulation, record: Mapping[str, Any], provenance: Mapping[str, str], axes: Axes | None = None
+) -> FeResult:
+    """Turn a finished simulation into a result; `axes` are found from the road where not given."""
     s = simulation.samples
     time = np.array(s.time)
     deck = simulation.model.deck
     normal = whole_force(deck, np.array(s.normal))
     tangential = whole_force(deck, np.array(s.tangential))
     force = normal + tangential
-    history = History(time, force[:, 1], -force[:, 0], np.array(s.slipping), provenance)
+    axes = axes or found_axes(normal)
+    history = History(time, force @ axes.normal_vector, -force @ axes.travel_vector, np.array(s.slipping), provenance)
     energies = pd.DataFrame(s.energy, columns=list(ENERGY_COLUMNS))
     energies[list(ENERGY_COLUMNS[1:])] *= JOULE * whole(deck)
     reaction = whole_force(deck, np.array(s.reaction))
@@ -88,7 +102,35 @@ def collect(simulation: Simulation, record: Mapping[str, Any], provenance: Mappi
             **{f"cfs_{a}_N": tangential[:, i] for i, a in enumerate(AXES)},
         }
     )
-    return FeResult(history, energies, reactions, contact, _face(simulation), record)
+    balance = energy_balance(energies)
+    scatter = unsteadiness(history.normal_force, history.tangential_force)
+    pressure = max((float(sample.max()) for sample in s.pressure if sample.size), default=0.0)
+    told = {
+        **record,
+        "axes": {"normal": axes.normal, "travel": axes.travel},
+        "energy_balance": balance,
+        "unsteadiness": scatter,
+        "largest": {"log_strain": simulation.strain, "contact_pressure_Pa": pressure / DECK_STRESS},
+        "reference_quality": reference_quality(balance, scatter),
+    }
+    return FeResult(history, energies, reactions, _nodes(simulation), contact, _face(simulation), told)
+
+
+def _nodes(simulation: Simulation) -> pd.DataFrame:
+    """Return the histories of nodes that the last step asks for."""
+    asked = simulation.model.steps[-1].node_history
+    time = np.array(simulation.samples.time)
+    parts = []
+    for name, request in asked.items():
+        state = np.array(simulation.samples.nodes[name])  # (samples, 3, nodes, 3)
+        labels = simulation.model.mesh.node_labels[request.nodes]
+        table = {"time_s": np.repeat(time, labels.size), "nset": name, "node": np.tile(labels, time.size)}
+        for row, (word, unit, factor) in enumerate((("U", "m", LENGTH), ("V", "m_s", LENGTH), ("RF", "N", 1.0))):
+            if word in request.variables:
+                for i, axis in enumerate(AXES):
+                    table[f"{word.lower()}_{axis}_{unit}"] = factor * state[:, row, :, i].ravel()
+        parts.append(pd.DataFrame(table))
+    return pd.concat(parts) if parts else pd.DataFrame()
 
 
 def _face(simulation: Simulation) -> pd.DataFrame:

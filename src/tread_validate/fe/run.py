@@ -16,6 +16,7 @@ from ..inp import problem_of
 from ..inp.symmetry import is_half
 from ..provenance import commit, sha256_text, version
 from ..source_code import code_digest
+from .axes import Axes
 from .explicit import Simulation
 from .frames import FrameWriter
 from .model import Model, read_model
@@ -36,6 +37,8 @@ def run_deck(
     threads: int = 1,
     frames: Path | str | None = None,
     progress: Callable[[float, float], None] | None = None,
+    normal: str | None = None,
+    travel: str | None = None,
 ) -> FeResult:
     """Run a deck of the documented subset in explicit dynamics.
 
@@ -52,6 +55,10 @@ def run_deck(
     progress : callable, optional
         Called with the share done (0..1) and the seconds left.
 
+    normal, travel : str, optional
+        ``+x`` .. ``-z``: out of the road, and the way the block goes. By default the axis nearest to the road's normal
+        forces, and +x (+y on a road that faces x).
+
     Returns
     -------
     FeResult
@@ -66,13 +73,16 @@ def run_deck(
     """
     if threads < 1:
         raise InputError("threads", threads, "1 or more")
+    if (normal is None) != (travel is None):
+        raise InputError("normal and travel", "one of them", "both or neither")
+    axes = Axes(normal, travel) if normal is not None and travel is not None else None
     source = Path(inp)
     model = read_model(source)
     user_text = read_text(user) if user is not None else None
     routine = None
-    if model.needs_user_routine:
+    if model.user_friction is not None:
         if user is None:
-            raise InputError(source.name, "*FRICTION, USER and no user routine", "--user vfric.f")
+            raise InputError(model.user_friction.where, "*FRICTION, USER and no user routine", "--user vfric.f")
         routine = compile_vfric(user)
     begun = time.monotonic()
     simulation = Simulation(model, routine, threads)
@@ -91,7 +101,7 @@ def run_deck(
         "deck_sha256": record["deck_sha256"],
         "deck_digest": record["deck_digest"],
     }
-    return collect(simulation, record, provenance)
+    return collect(simulation, record, provenance, axes)
 
 
 def _record(

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..inp import DataLine, KeywordBlock
 from .amplitude import Amplitude
-from .mesh import FACES, Mesh
+from .loads import Load, read_loads
+from .mesh import Mesh
 
 Ints = NDArray[np.int64]
 FIXED, VELOCITY, DISPLACEMENT = 0, 1, 2
+HISTORY_VARIABLES = ("U", "V", "RF")
 NAMED_CONDITIONS = {
     "ENCASTRE": (1, 2, 3, 4, 5, 6),
     "PINNED": (1, 2, 3),
@@ -36,18 +38,7 @@ class Condition:
     magnitude: float
     amplitude: Amplitude | None
     where: str
-
-
-@dataclass(frozen=True)
-class Load:
-    """A concentrated force (`dof` 1..3 on `nodes`) or a pressure (`dof` 0 on `faces`)."""
-
-    nodes: Ints
-    faces: Ints
-    dof: int
-    magnitude: float
-    amplitude: Amplitude | None
-    where: str
+    step: str
 
 
 @dataclass(frozen=True)
@@ -58,6 +49,14 @@ class ContactPair:
     master: str
     interaction: str
     where: str
+
+
+@dataclass(frozen=True)
+class NodeHistory:
+    """Nodes whose history is asked for, and the variables (U, V, RF)."""
+
+    nodes: Ints
+    variables: tuple[str, ...]
 
 
 @dataclass
@@ -87,7 +86,7 @@ class Step:
     pairs: list[ContactPair] = field(default_factory=list)
     mass_scaling: list[tuple[Ints, float | None, float | None, str]] = field(default_factory=list)
     history_interval: float | None = None
-    node_history: dict[str, Ints] = field(default_factory=dict)
+    node_history: dict[str, NodeHistory] = field(default_factory=dict)
     renewed: set[str] = field(default_factory=set)
 
 
@@ -103,11 +102,11 @@ def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amp
             name = block.parameters.get("NAME") or f"Step-{len(steps) + 1}"
             current = Step(name, block.where, conditions=dict(before.conditions), loads=list(before.loads))
             current.pairs = list(before.pairs)
-            _refuse_stale(current)
             history = False
         elif word == "END STEP":
             if not current.period > 0:
                 raise InputError(current.where, "a step without *DYNAMIC, EXPLICIT", "a duration above 0")
+            _refuse_stale(current)
             steps.append(current)
         elif word == "DYNAMIC":
             _dynamic(block, current)
@@ -120,7 +119,9 @@ def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amp
         elif word == "BOUNDARY":
             _boundary(block, mesh, amplitudes, current)
         elif word in ("CLOAD", "DLOAD", "DSLOAD"):
-            _load(block, mesh, amplitudes, current)
+            if _is_first_new(block, current):
+                current.loads = [load for load in current.loads if not load.kind.startswith(word + " ")]
+            read_loads(block, mesh, _amplitude(block, amplitudes), current.where, current.loads)
         elif word == "CONTACT PAIR":
             _pair(block, current)
         elif word == "FIXED MASS SCALING":
@@ -130,18 +131,26 @@ def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amp
             if history and block.parameters.get("TIME INTERVAL"):
                 current.history_interval = _positive(block, "TIME INTERVAL")
         elif word == "NODE OUTPUT" and history and block.parameters.get("NSET"):
-            name = block.value("NSET")
-            current.node_history[name] = mesh.nodes_of(name, block)
+            _node_history(block, mesh, current)
     if not steps:
         raise InputError(blocks[0].file, "no *STEP", "at least one *DYNAMIC, EXPLICIT step")
     return steps
 
 
+def _node_history(block: KeywordBlock, mesh: Mesh, step: Step) -> None:
+    name = block.value("NSET")
+    asked = {text.upper() for line in block.data for text in line.fields if text}
+    if not asked or block.parameters.get("VARIABLE") in ("ALL", "PRESELECT"):
+        asked |= set(HISTORY_VARIABLES)
+    variables = tuple(word for word in HISTORY_VARIABLES if any(text.rstrip("123") == word for text in asked))
+    step.node_history[name] = NodeHistory(mesh.nodes_of(name, block), variables)
+
+
 def _refuse_stale(step: Step) -> None:
-    """A step-time amplitude has no meaning in the next step's clock."""
+    """Refuse a step-time amplitude that goes on from an earlier step: it has no meaning in this one's clock."""
     items: list[Condition | Load] = [*step.conditions.values(), *step.loads]
     for item in items:
-        if item.amplitude is not None and not item.amplitude.total_time:
+        if item.step != step.where and item.amplitude is not None and not item.amplitude.total_time:
             raise InputError(
                 item.where,
                 f"amplitude {item.amplitude.name} in STEP TIME carried into step {step.name}",
@@ -222,36 +231,9 @@ def _boundary(block: KeywordBlock, mesh: Mesh, amplitudes: dict[str, Amplitude],
             if kind == DISPLACEMENT and amplitude is None:
                 raise InputError(line.where, "a displacement without an amplitude", "AMPLITUDE= or TYPE=VELOCITY")
         for dof in dofs:
-            condition = Condition(nodes, dof, kind, magnitude, amplitude, line.where)
+            condition = Condition(nodes, dof, kind, magnitude, amplitude, line.where, step.where)
             for node in nodes:
                 step.conditions[(int(node), dof)] = condition
-
-
-def _load(block: KeywordBlock, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
-    if _is_first_new(block, step):
-        cloads = block.keyword == "CLOAD"
-        step.loads = [load for load in step.loads if (load.dof > 0) != cloads]
-    amplitude = _amplitude(block, amplitudes)
-    none = np.zeros(0, dtype=np.int64)
-    for line in block.data:
-        fields = line.fields
-        word = fields[1].upper() if len(fields) > 1 else ""
-        size = line.number_at(2, "a magnitude")
-        if block.keyword == "CLOAD":
-            dof = line.integer_at(1, "a degree of freedom 1..3")
-            if not 1 <= dof <= 3:
-                raise InputError(line.where, line.text, "a degree of freedom 1 to 3")
-            step.loads.append(Load(mesh.nodes_of(fields[0], line), none, dof, size, amplitude, line.where))
-        elif block.keyword == "DSLOAD":
-            name = fields[0].upper()
-            if word != "P" or name not in mesh.faces:
-                raise InputError(line.where, line.text, "element surface, P, magnitude")
-            step.loads.append(Load(none, mesh.faces[name], 0, size, amplitude, line.where))
-        else:
-            if word not in ("P1", "P2", "P3", "P4", "P5", "P6"):
-                raise InputError(line.where, line.text, "element set, P1 to P6, magnitude")
-            faces = mesh.connectivity[mesh.elements_of(fields[0], line)][:, FACES[int(word[1]) - 1]]
-            step.loads.append(Load(none, faces, 0, size, amplitude, line.where))
 
 
 def _pair(block: KeywordBlock, step: Step) -> None:

@@ -8,6 +8,9 @@ from types import ModuleType
 import numpy as np
 import pytest
 
+from tread_validate.errors import InputError
+from tread_validate.fe.mesh import FACES
+
 
 def mean_velocity(simulation) -> np.ndarray:  # type: ignore[no-untyped-def]
     """Velocity of the centre of mass."""
@@ -125,3 +128,80 @@ def test_two_steps_do_what_one_does(tmp_path: Path, fe: ModuleType) -> None:
     two = fe.run(tmp_path, head + fe.step(0.5e-3, move) + fe.step(0.7e-3))
     assert two.clock[0] == pytest.approx(1.2e-3, rel=1e-12)
     assert np.abs(one.displacement() - two.displacement()).max() < 1e-4 * np.abs(one.displacement()).max()
+
+
+@pytest.mark.parametrize(
+    "load",
+    ["*CLOAD{}\nTOP, 3, -{}\n", "*DLOAD{}\nHIGH, P2, {}\n", "*DSLOAD{}\nCROWN, P, {}\n"],
+    ids=["CLOAD", "DLOAD", "DSLOAD"],
+)
+@pytest.mark.parametrize("operation", ["", ", OP=NEW"], ids=["modified", "new"])
+def test_load_given_again_in_a_later_step_takes_the_place_of_the_first(
+    tmp_path: Path, fe: ModuleType, load: str, operation: str
+) -> None:
+    """A free cube under 1 for a time T and 2 for a time T: v = 3 T/m with a load of 1 each (1/4 at each node).
+
+    Added instead of replaced it would be 4 T/m. An amplitude in step time in each of two steps is no fault when the
+    second replaces the first. Tolerance 0.5 %, as half an increment at the end is 0.3 %.
+    """
+    block = fe.brick(1, 1, 1, 1.0, 1.0, 1.0)
+    period, density = 2e-4, 1e-8
+    first, second = ("0.25", "0.5") if "CLOAD" in load else ("1.0", "2.0")
+    text = (
+        block.text() + "*SURFACE, TYPE=ELEMENT, NAME=CROWN\nE, S2\n*ELSET, ELSET=HIGH\n1,\n"
+        + fe.elastic(1000.0, 0.0, density) + "*AMPLITUDE, NAME=A\n0., 1., 1., 1.\n"
+        + fe.step(period, load.format(", AMPLITUDE=A", first))
+        + fe.step(period, load.format(", AMPLITUDE=A" + operation, second))
+    )  # fmt: skip
+    simulation = fe.run(tmp_path, text)
+    assert mean_velocity(simulation)[2] == pytest.approx(-3.0 * period / density, rel=5e-3)
+
+
+def test_load_on_another_place_in_a_later_step_comes_on_top(tmp_path: Path, fe: ModuleType) -> None:
+    """OP=MOD leaves what it does not name: half the nodes at 0.25, then the other half too: v = (0.5 + 1) T/m."""
+    block = fe.brick(1, 1, 1, 1.0, 1.0, 1.0)
+    period, density = 2e-4, 1e-8
+    a, b = block.top[:2] + 1, block.top[2:] + 1
+    nodes = [f"{n}, 3, -0.25\n" for n in (*a, *b)]
+    text = (
+        block.text() + fe.elastic(1000.0, 0.0, density) + fe.step(period, "*CLOAD\n" + nodes[0] + nodes[1])
+        + fe.step(period, "*CLOAD\n" + nodes[2] + nodes[3])
+    )  # fmt: skip
+    assert mean_velocity(fe.run(tmp_path, text))[2] == pytest.approx(-1.5 * period / density, rel=5e-3)
+
+
+def test_step_time_amplitude_that_would_go_on_into_a_later_step_is_refused(tmp_path: Path, fe: ModuleType) -> None:
+    """Nothing in the second step takes the load's place: its amplitude has no meaning there."""
+    block = fe.brick(1, 1, 1, 1.0, 1.0, 1.0)
+    text = (
+        block.text() + fe.elastic(1000.0, 0.0) + "*AMPLITUDE, NAME=A\n0., 1., 1., 1.\n"
+        + fe.step(1e-4, "*CLOAD, AMPLITUDE=A\nTOP, 3, 1.\n") + fe.step(1e-4)
+    )  # fmt: skip
+    with pytest.raises(InputError, match="STEP TIME"):
+        fe.run(tmp_path, text)
+
+
+def test_pressure_on_a_distorted_patch_gives_a_uniform_stress(tmp_path: Path, fe: ModuleType) -> None:
+    """A cube of 3 x 3 x 3 elements with crooked faces under p on all sides: nodal forces balance the stress p exactly.
+
+    The forces of a uniform Cauchy stress -p on the elements are -p V b summed over elements; those of the pressure are
+    the integrals of the shape functions over the faces. By Gauss' theorem they are equal and opposite: 1e-12 of them.
+    """
+    from tread_validate.fe.blocks import mean_gradients
+    from tread_validate.fe.step_kernel import pressure_loads
+
+    block = fe.brick(3, 3, 3, 3.0, 3.0, 3.0)
+    points = block.points + np.random.default_rng(3).uniform(-0.25, 0.25, block.points.shape)
+    volume, gradients = mean_gradients(points[block.elements])
+    inner = np.zeros_like(points)
+    np.add.at(inner, block.elements, np.transpose(volume[:, None, None] * gradients, (0, 2, 1)))
+    every = np.concatenate([block.elements[:, face] for face in FACES])
+    labels = np.sort(every, axis=1)
+    _, first, count = np.unique(labels, axis=0, return_index=True, return_counts=True)
+    faces = np.ascontiguousarray(every[first[count == 1]])
+    load = np.zeros(points.size)
+    pressure_loads(
+        faces, np.ones(len(faces)), np.full(len(faces), -1), np.zeros(1), points.ravel().copy(), np.zeros(points.size),
+        load,
+    )  # fmt: skip
+    assert np.abs(load.reshape(-1, 3) + inner).max() < 1e-12 * np.abs(inner).max()
