@@ -22,6 +22,8 @@ FIRST_STEPS = 80
 """Lanczos steps from an arbitrary start: the largest eigenvalue to 0.1 %."""
 NEXT_STEPS = 6
 """Lanczos steps from the mode of the look before."""
+EXHAUSTED = 1e-10
+"""Size of a new Lanczos vector, of the largest eigenvalue, at which the space is taken to be complete."""
 
 
 class Stiffness(NamedTuple):
@@ -88,28 +90,6 @@ def multiply(stiffness, x, out):  # type: ignore[no-untyped-def]
 
 
 @kernel(reorder=True)
-def viscous_power(stiffness, bulk_viscosity, damping, x):  # type: ignore[no-untyped-def]
-    """Return x C x of bulk viscosity and stiffness-proportional damping for velocities `x` (n, 3)."""
-    power = 0.0
-    g = np.empty((3, 3))
-    for e in range(stiffness.volume.size):
-        for c in range(3):
-            for j in range(3):
-                total = 0.0
-                for a in range(8):
-                    total += x[stiffness.connectivity[e, a], c] * stiffness.gradients[e, j, a]
-                g[c, j] = total
-        trace = g[0, 0] + g[1, 1] + g[2, 2]
-        squares = 0.0
-        for c in range(3):
-            for j in range(3):
-                squares += 0.5 * (g[c, j] + g[j, c]) ** 2
-        own = stiffness.lame[e] * trace * trace + 2.0 * stiffness.shear[e] * squares
-        power += stiffness.volume[e] * (bulk_viscosity[e] * trace * trace + damping[e] * own)
-    return power
-
-
-@kernel(reorder=True)
 def dot(x, y):  # type: ignore[no-untyped-def]
     """Return the sum of x y over flat arrays, on this thread alone: BLAS would wake others for it."""
     total = 0.0
@@ -126,6 +106,7 @@ def krylov(stiffness, root, start, basis, diagonal, beside):  # type: ignore[no-
     image = np.empty(size)
     basis[0] = start / math.sqrt(dot(start, start))
     steps = diagonal.size
+    largest = 0.0
     for i in range(steps):
         for k in range(size):
             scaled[k] = root[k] * basis[i, k]
@@ -133,12 +114,13 @@ def krylov(stiffness, root, start, basis, diagonal, beside):  # type: ignore[no-
         for k in range(size):
             image[k] *= root[k]
         diagonal[i] = dot(image, basis[i])
-        for j in range(i + 1):
-            share = dot(image, basis[j])
+        for j in range(2 * i + 2):  # twice: what is left of the space may be nothing but rounding
+            share = dot(image, basis[j % (i + 1)])
             for k in range(size):
-                image[k] -= share * basis[j, k]
+                image[k] -= share * basis[j % (i + 1), k]
         beside[i] = math.sqrt(dot(image, image))
-        if beside[i] <= 1e-12 * diagonal[0]:
+        largest = max(largest, diagonal[i])
+        if beside[i] <= EXHAUSTED * largest:
             return i + 1
         if i + 1 < steps:
             for k in range(size):
@@ -180,12 +162,14 @@ class StableIncrement:
         return largest + float((b.hourglass / (b.density * b.volume)).max())
 
     def increment(self, displacement: Floats) -> float:
-        """Return 2 (sqrt(1 + x^2) - x)/omega with the damping ratio x of the highest mode."""
+        """Return 2 (sqrt(1 + x^2) - x)/omega with a bound on the damping ratio x of the highest modes.
+
+        Bulk viscosity takes at most its ratio to the bulk modulus of what the elastic stress does, in the element where
+        that ratio is largest; damping of the material is proportional to the stiffness.
+        """
         omega = math.sqrt(self.frequency_squared(displacement))
-        assert self.mode is not None
         b = self.blocks
-        power = viscous_power(self.stiffness, b.bulk_linear, b.damping, self.root * self.mode)
-        ratio = 0.5 * power / omega
+        ratio = 0.5 * omega * float((b.bulk_linear / b.bulk + b.damping).max())
         return float(2.0 * (math.sqrt(1.0 + ratio**2) - ratio) / omega)
 
     def _lanczos(self, start: Floats, steps: int) -> tuple[float, Floats]:
