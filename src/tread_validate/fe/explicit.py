@@ -137,14 +137,15 @@ class Simulation:
     def stable_increment(self, step: Step) -> float:
         """Return the automatic increment at this moment, times the safety factor.
 
-        From the highest frequency of the whole mesh, or of its elements one by one where the step asks for that.
+        From the highest frequency of the whole mesh; of its elements one by one where the step asks for that or no node
+        is free.
         """
         b = self.blocks
-        if step.element_by_element:
+        free = ~held_nodes(self.model, self.bodies, self.prescribed)
+        if step.element_by_element or not (free & (b.mass > 0.0)).any():
             gradient = np.einsum("nac,nja->ncj", self.nodes.u.reshape(-1, 3)[b.connectivity], b.gradients)
             return step.scale * SAFETY * float(b.stable_increments(gradient).min())
         if self.stability is None:
-            free = ~held_nodes(self.model, self.bodies, self.prescribed)
             self.stability = StableIncrement(b, free)
         return step.scale * SAFETY * self.stability.increment(self.nodes.u.reshape(-1, 3)[:-1])
 
