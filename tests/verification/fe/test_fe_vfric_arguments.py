@@ -58,13 +58,15 @@ def deck(fe: ModuleType, area: float) -> str:
     """A block pressed on a plane that then slides under it at 1000 mm/s."""
     block = fe.brick(4, 3, 2, 4.0, 3.0, 2.0)
     friction = fe.user_friction(0.3, area).replace("USER=FRIC", "USER=FRIC, DEPVAR=2")
-    return (
+    text = (
         block.text() + fe.elastic(20.0, 0.3) + fe.plane() + friction
         + "*AMPLITUDE, NAME=A, DEFINITION=SMOOTH STEP\n0., 0., 1e-4, 1.\n*BOUNDARY\nROADREF, 2, 6\nTOP, 1, 2\n"
         + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 55.\n*INITIAL CONDITIONS, TYPE=VELOCITY\nROADREF, 1, 1000.\n"
         + fe.step(6e-4, "*BOUNDARY, AMPLITUDE=A\nTOP, 3, 3, -0.02\n",
                   "*BOUNDARY, TYPE=VELOCITY\nROADREF, 1, 1, 1000.\n", fe.CONTACT)
     )  # fmt: skip
+    # short increments: the slip of the increment in which a node first touches is in no sum
+    return text.replace("*DYNAMIC, EXPLICIT", "*DYNAMIC, EXPLICIT, SCALE FACTOR=0.5")
 
 
 def test_arguments_of_vfric_mean_what_their_documentation_says(tmp_path: Path, fe: ModuleType) -> None:
