@@ -31,7 +31,7 @@ def test_pulse_runs_along_a_bar_at_the_bar_speed(tmp_path: Path, fe: ModuleType)
     time = np.array(simulation.samples.time)
     passing = {}
     for name in stations:
-        velocity = np.array([v[0, 2] for _, v in simulation.samples.nodes[name]])
+        velocity = np.array([state[1, 0, 2] for state in simulation.samples.nodes[name]])
         row = int(np.argmax(velocity < -5.0))
         share = (-5.0 - velocity[row - 1]) / (velocity[row] - velocity[row - 1])
         passing[name] = time[row - 1] + share * (time[row] - time[row - 1])
@@ -51,7 +51,7 @@ def test_free_block_swings_at_its_first_axial_frequency(tmp_path: Path, fe: Modu
     )  # fmt: skip
     simulation = fe.run(tmp_path, text)
     time = np.array(simulation.samples.time)
-    end = np.array([u[0, 2] for u, _ in simulation.samples.nodes["TOP"]])
+    end = np.array([state[0, 0, 2] for state in simulation.samples.nodes["TOP"]])
     rows = np.flatnonzero((end[:-1] < 0) != (end[1:] < 0))
     zeros = time[rows] - end[rows] * (time[rows + 1] - time[rows]) / (end[rows + 1] - end[rows])
     zeros = zeros[zeros > 0.1 / frequency]
