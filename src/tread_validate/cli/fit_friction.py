@@ -19,6 +19,18 @@ def command(
         list[str] | None, typer.Option("--hold", help="NAME=VALUE: beta, n or m not fitted; may be given again")
     ] = None,
     static: Annotated[float, number("--static", "static_coefficient", "static coefficient")] = 0.9,
+    temperature: Annotated[
+        float | None, number("--temperature-degC", "temperature_degC", "rows of this temperature (within 3 K)")
+    ] = None,
+    pressure_unit: Annotated[str | None, typer.Option("--pressure-unit", help="Pa, kPa, MPa")] = None,
+    speed_unit: Annotated[str | None, typer.Option("--speed-unit", help="m/s, mm/s, km/h")] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option("--column", help="KEY=COLUMN: pressure, slip_speed, coefficient, temperature"),
+    ] = None,
+    accept: Annotated[
+        bool, typer.Option("--accept-lack-of-fit", help="write the law although it misses the table")
+    ] = False,
     confirm: Annotated[bool, typer.Option("--confirm-units", help="accept values out of the usual range")] = False,
     origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
     source: Annotated[str, typer.Option("--source", help="where the data come from, one line")] = "",
@@ -33,7 +45,8 @@ def command(
     from ..errors import InputError, one_line
     from ..friction import fit_friction, read_friction_table
     from ..friction.law_file import friction_yaml, quality
-    from .laboratory import checked_origin, provenance, write_all
+    from ..instrument.quantities import FRICTION
+    from .laboratory import checked_origin, provenance, reading_of, write_all
 
     held: dict[str, float] = {}
     for item in hold or ():
@@ -46,7 +59,15 @@ def command(
             raise InputError("--hold", one_line(item, 60), "NAME=VALUE, such as beta=0")
         bounded(held[name.strip()], name, f"--hold {name.strip()}")
     kind, told = checked_origin(table, origin, source)
-    fit = fit_friction(read_friction_table(table, confirm), held, static)
+    units = {"--pressure-unit": pressure_unit, "--speed-unit": speed_unit}
+    data = read_friction_table(table, confirm, reading_of(column, units, FRICTION), temperature)
+    fit = fit_friction(data, held, static)
+    if not fit.describes and not accept:
+        raise InputError(
+            table,
+            f"a lack of fit of p = {fit.lack_of_fit:.2g} and {100 * fit.misfit:.2g} % of the mean coefficient",
+            "p of 0.001 or more, or 3 % at most (kind: table follows any table; --accept-lack-of-fit insists)",
+        )
     files = {output: friction_yaml(fit, kind, told, provenance(table))}
     if vfric is not None:
         files[vfric] = _vfric(fit.law, kind, told)
@@ -56,6 +77,8 @@ def command(
 
         mark = ", synthetic" if kind == "synthetic" else ""
         draw.save(figure, (9.4, 3.4), lambda canvas: draw.friction(fit, canvas, mark))
+    for line in data.understood:
+        typer.echo(f"read: {line}")
     typer.echo(f"{kind} data: {told}")
     for constant, fitted in fit.constants.items():
         low, high = fit.intervals[constant]

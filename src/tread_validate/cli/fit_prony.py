@@ -66,6 +66,7 @@ def command(
     from typing import get_args
 
     from ..errors import InputError
+    from ..instrument.quantities import DMA
     from ..material import RouteSettings, abaqus_card, read_route
     from ..material.material_file import material_yaml
     from ..material.route import Times
@@ -79,7 +80,9 @@ def command(
     if band is not None and not 0 < band[0] < band[1]:
         raise InputError("--band", f"{band[0]:g} {band[1]:g}", "0 < LOW < HIGH")
     reading = reading_of(
-        column, {"--modulus-unit": unit, "--frequency-unit": frequency_unit, "--temperature-unit": temperature_unit}
+        column,
+        {"--modulus-unit": unit, "--frequency-unit": frequency_unit, "--temperature-unit": temperature_unit},
+        DMA,
     )
     kind, told = checked_origin(sweeps[0], origin, source)
     wlf = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=ts)

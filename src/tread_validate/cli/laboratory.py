@@ -10,7 +10,7 @@ from ..errors import InputError, one_line
 from ..files import write_text
 
 if TYPE_CHECKING:
-    from ..instrument import Reading
+    from ..instrument import Quantity, Reading
 
 ORIGINS = ("measured", "synthetic")
 
@@ -54,16 +54,16 @@ def provenance(*paths: Path) -> dict[str, str]:
     return found | {"version": version()}
 
 
-def reading_of(columns: list[str] | None, units: Mapping[str, str | None]) -> Reading:
+def reading_of(columns: list[str] | None, units: Mapping[str, str | None], quantities: tuple[Quantity, ...]) -> Reading:
     """Return what ``--column KEY=COLUMN`` and the unit options say of a file."""
     from ..instrument import Reading
-    from ..instrument.quantities import DMA, FREQUENCY, PRESSURE, TEMPERATURE, choices
+    from ..instrument.quantities import choices
 
-    known = {"--modulus-unit": PRESSURE, "--frequency-unit": FREQUENCY, "--temperature-unit": TEMPERATURE}
+    known = {quantity.option: quantity.units for quantity in quantities if quantity.option}
     for option, unit in units.items():
         if unit is not None and unit.lower() not in known[option]:
             raise InputError(option, one_line(unit, 40), f"one of {choices(known[option])}")
-    keys = [quantity.key for quantity in DMA]
+    keys = [quantity.key for quantity in quantities]
     chosen = {}
     for pair in columns or []:
         key, equals, column = pair.partition("=")

@@ -32,6 +32,9 @@ HOLDABLE = ("beta", "n", "m")
 FALLBACKS: tuple[tuple[str, float], ...] = (("beta", 0.0), ("m", 10.0))
 FEWEST_SPEEDS = 4
 POLISHES = 8
+DOUBTFUL = 0.05  # probability of the misfit by scatter alone, below which a warning says so ...
+REFUSED = 1e-3  # ... and below which the law is refused
+LARGEST_MISFIT = 0.03  # if the misfit is also larger than this, relative
 PARALLEL = 0.999  # correlation beyond which two constants cannot be told apart
 
 
@@ -69,6 +72,17 @@ class FrictionFit:
     rms: float
     repeatability: float | None
     lack_of_fit: float | None
+
+    @property
+    def misfit(self) -> float:
+        """Root mean square of the residuals that scatter does not explain, over the mean coefficient."""
+        unexplained = max(self.rms**2 - (self.repeatability or 0.0) ** 2, 0.0)
+        return float(np.sqrt(unexplained) / np.mean(self.data.coefficient))
+
+    @property
+    def describes(self) -> bool:
+        """False where scatter explains the misfit with p < 0.001 only and the misfit is more than 3 %."""
+        return self.lack_of_fit is None or self.lack_of_fit >= REFUSED or self.misfit <= LARGEST_MISFIT
 
 
 def fit_friction(
@@ -209,9 +223,9 @@ def _polished(q: Array, free: NDArray[np.bool_], data: FrictionData) -> Array:
         step = np.zeros(q.size)
         step[free] = np.linalg.lstsq(scaled.T @ scaled, gradient, rcond=1e-13)[0] / size
         better = q - step
-        if np.sum((_model(better, data) - data.coefficient) ** 2) > 1.000001 * np.sum(
-            (_model(q, data) - data.coefficient) ** 2
-        ):
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            after = float(np.sum((_model(better, data) - data.coefficient) ** 2))
+        if not after <= 1.000001 * float(np.sum((_model(q, data) - data.coefficient) ** 2)):
             return q  # not determined: the search's answer stands, with its warnings
         q = better
     return q
@@ -266,6 +280,13 @@ def _result(
     }
     fitted = _model(q, data)
     residual = data.coefficient - fitted
+    highest = int(np.argmax(fitted))
+    if fitted[highest] > static_coefficient:
+        warnings = (
+            *warnings,
+            f"the kinetic coefficient reaches {fitted[highest]:.3g} (at {data.pressure[highest]:.3g} Pa and "
+            f"{data.slip_speed[highest]:.3g} m/s), above the static one of {static_coefficient:g}",
+        )
     repeatability, lack = _lack_of_fit(data, residual, len(SEARCH) - len(held))
     law = huemer_law(
         **constants,
@@ -275,6 +296,8 @@ def _result(
         where=data.source,
     )
     rms = float(np.sqrt(np.mean(residual**2)))
+    if lack is not None and lack < DOUBTFUL:
+        warnings = (*warnings, f"lack of fit: the law misses the table by more than its scatter (p = {lack:.2g})")
     return FrictionFit(
         data, law, constants, intervals, dict(held), warnings, fitted, residual, rms, repeatability, lack
     )

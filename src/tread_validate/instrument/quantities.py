@@ -75,6 +75,17 @@ DMA = (
     Quantity("phase", "delta", ("phase", "phaseangle", "delta", "δ", "lossangle"), ANGLE, "--phase-unit"),
     Quantity("set", "sweep", ("set", "sweep", "sweepnumber", "sweepno"), NONE),
 )  # fmt: skip
+FRICTION = (
+    Quantity("pressure", "pressure", ("pressure", "p", "contactpressure", "nominalpressure", "normalpressure"),
+             PRESSURE, "--pressure-unit"),
+    Quantity("slip_speed", "slip speed", ("slipspeed", "slidingspeed", "slidingvelocity", "slipvelocity", "velocity",
+             "speed", "v"), SPEED, "--speed-unit"),
+    Quantity("coefficient", "friction coefficient", ("frictioncoefficient", "coefficientoffriction", "cof", "mu", "µ",
+             "μ", "friction"), {**NONE, "%": Unit(0.01)}, "--coefficient-unit"),
+    Quantity("temperature", "temperature", ("temperature", "temp", "t", "rubbertemperature"), TEMPERATURE,
+             "--temperature-unit"),
+    Quantity("run", "run", ("run", "repeat", "repetition", "runnumber"), NONE),
+)  # fmt: skip
 SHEAR = {"g'", "g''", "gstor", "gloss", "shearstoragemodulus", "shearlossmodulus", "g*", "gstorage", "storagemodulusg'"}
 
 

@@ -12,7 +12,7 @@ from .quantities import SHEAR, Quantity, Unit, bare_name, choices
 
 BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(]\s*(?P<unit>[^\[\]()]*)\s*[\])]\s*$")
 DIVIDED = re.compile(r"^(?P<name>.*?)\s*(?:/|\bin\b)\s*(?P<unit>\S+)\s*$")
-SUFFIXED = re.compile(r"^(?P<name>.*)_(?P<unit>rad_s|m_s|mm_s|[A-Za-z]+)$")
+SUFFIXED = re.compile(r"^(?P<name>.+?)_(?P<unit>rad_s|m_s|mm_s|[A-Za-z]+)$")
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,42 @@ def test_shipped_friction_file_is_a_study_law(root: Path) -> None:
     assert fitted.static_coefficient == 0.9
 
 
+def test_units_names_temperature_and_runs_of_a_tribometer(tmp_path: Path) -> None:
+    """kPa, mm/s, per cent and kelvin under other names; of two temperatures the one asked for is taken."""
+    rows = [f"{t + 273.15};{k};{p / 1e3:g};{1e3 * v:g};{100 * mu:g}".replace(".", ",")
+            for t in (22.0, 60.0) for k in (1, 2) for p, v, mu in grid()]  # fmt: skip
+    path = tmp_path / "tribo.csv"
+    path.write_text("Temp. [K];Run;Pressure [kPa];Sliding speed [mm/s];COF [%]\n" + "\n".join(rows), encoding="latin-1")
+    data = read_friction_table(path, temperature=60.0)
+    assert data.coefficient.size == 16
+    np.testing.assert_allclose(data.pressures, [1e5, 4e5])
+    np.testing.assert_allclose(data.speeds, [0.01, 0.1, 1.0, 5.0])
+    np.testing.assert_allclose(data.coefficient[:8], [mu for _, _, mu in grid()], rtol=1e-5)
+    with pytest.raises(InputError, match=r"temperatures of 22, 60 degC, expected one: --temperature-degC"):
+        read_friction_table(path)
+
+
+def test_a_law_that_misses_its_table_does_not_describe_it(tmp_path: Path) -> None:
+    """A step in speed that Huemer's law cannot have, with repeats of 0.1 %: refused; with 30 % scatter it is not."""
+    random = np.random.default_rng(1)
+    for scatter, describes in ((1e-3, False), (0.3, True)):
+        rows = [
+            (p, v, (0.5 + 0.15 * (0.05 < v < 0.5)) * (1.0 + scatter * random.standard_normal()))
+            for p in (1e5, 2e5, 4e5)
+            for v in np.geomspace(1e-3, 10.0, 9)
+            for _ in range(3)
+        ]
+        fit = fit_friction(read_friction_table(write(tmp_path, rows)))
+        assert fit.describes is describes
+        assert any("lack of fit" in text for text in fit.warnings) is not describes
+
+
+def test_a_kinetic_coefficient_above_the_static_one_is_told(tmp_path: Path) -> None:
+    rows = [(p, v, 2.0 * mu) for p, v, mu in grid((1e5, 2e5, 4e5), (1e-3, 0.01, 0.1, 1.0, 5.0))]
+    fit = fit_friction(read_friction_table(write(tmp_path, rows)), static_coefficient=0.9)
+    assert any("above the static one of 0.9" in text for text in fit.warnings)
+
+
 @pytest.mark.parametrize(
     ("rows", "reason"),
     [
