@@ -19,9 +19,9 @@ from scipy.stats import t as t_distribution
 
 from ..errors import InputError
 from ..units import MPA
+from .huemer_form import FITTED as CONSTANTS
+from .huemer_form import huemer_law
 from .law import FrictionLaw
-from .law_file import FITTED as CONSTANTS
-from .laws.huemer import huemer_law
 from .table_file import FrictionData
 
 Array = NDArray[np.float64]

@@ -11,12 +11,11 @@ from pydantic import Field
 from ..errors import one_line
 from ..model_file import read_model
 from ..units import KPA, MM
+from .huemer_form import FITTED
 from .laws.huemer import Huemer
 
 if TYPE_CHECKING:
     from .fit import FrictionFit
-
-FITTED = ("alpha", "beta", "n", "m", "a", "b", "c")
 
 
 class FrictionFile(Huemer):
