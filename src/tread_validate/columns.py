@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from .bounds import first_beyond
@@ -122,6 +121,8 @@ def _quickly(
     """Return the columns of a long table that is beyond reproach; None leaves the rest to the careful way."""
     if line.size < LONG:
         return None
+    import pandas as pd
+
     body = "\n".join(lines[number - 1] for number in line)
     places = [header.index(name) for name in wanted]
     try:

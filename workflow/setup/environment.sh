@@ -29,10 +29,4 @@ echo "Installing pinned packages (a few minutes the first time)"
     setuptools wheel
 "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --no-build-isolation \
     --constraint constraints.txt --editable "$requirement"
-echo "Compiling the spring models' kernels"
-scratch=$(mktemp -d)
-for variant in paper coupled; do
-    "$folder/bin/tread-validate" spring config/study.yaml --case belt-simplified-60c-0p2mm-16p7mps-creep0p3 \
-        --variant "$variant" -o "$scratch" >/dev/null
-done
-rm -rf "$scratch"
+"$folder/bin/python" workflow/setup/compile_kernels.py config/study.yaml

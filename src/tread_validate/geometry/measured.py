@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from ..errors import InputError
 from .line import TabulatedLine
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 Array = NDArray[np.float64]
 ARC_STEP = 0.25e-3
@@ -41,6 +45,8 @@ def line_from_trace(x: Array, height: Array, patch_height: float, where: str = "
         raise InputError(where, "places out of order or given twice", "places that increase")
     if not x[0] < 0.0 < x[-1]:
         raise InputError(where, f"places from {x[0]:g} to {x[-1]:g} m", "places on both sides of 0, the patch's middle")
+    from scipy.interpolate import CubicSpline
+
     curve = CubicSpline(x, height)
     if np.max(np.abs(curve(x, 1))) > STEEPEST:
         raise InputError(where, "a slope of more than 70 deg", "a belt trace in metres over metres")
@@ -49,6 +55,8 @@ def line_from_trace(x: Array, height: Array, patch_height: float, where: str = "
 
 def _tabulate(curve: CubicSpline, x: Array, patch_height: float) -> TabulatedLine:
     """Resample a curve y(x) at equal arcs, arc 0 at x = 0."""
+    from scipy.interpolate import CubicSpline
+
     knots = np.linspace(x[0], x[-1], max(8 * x.size, 1000))
     half = 0.5 * np.diff(knots)
     nodes = 0.5 * (knots[1:] + knots[:-1])[:, None] + half[:, None] * GAUSS_X

@@ -13,7 +13,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 from ..errors import InputError
 
@@ -160,6 +159,7 @@ class _Problem:
 
     def best_edges(self, start: tuple[float, float]) -> tuple[float, float]:
         """Return the edges of least misfit: a scan of each about `start`, then Nelder and Mead's method."""
+        from scipy.optimize import minimize
 
         def misfit(edges: Array) -> float:
             first, last = self.span

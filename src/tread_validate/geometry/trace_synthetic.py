@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
 
 Array = NDArray[np.float64]
 
@@ -54,6 +53,8 @@ def curvature(distance: Array) -> Array:
 
 def exact_height(x: Array, patch_length: float) -> Array:
     """Return the height in m above the patch at x in m from its middle: curvature integrated along the arc."""
+    from scipy.integrate import cumulative_trapezoid
+
     arc = np.linspace(-5e-3, 2.0 * HALF_SPAN, 100_001)
     slope = cumulative_trapezoid(curvature(arc), arc, initial=0)
     outside = arc[0] + cumulative_trapezoid(np.cos(slope), arc, initial=0)

@@ -7,8 +7,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline
-from scipy.optimize import least_squares
 
 from ..errors import InputError
 from ..study import Wlf
@@ -121,6 +119,8 @@ def fit_wlf(
     minimise the robustly weighted squares about it. The spline and the vertical factors are linear and eliminated at
     each step. Raises `InputError` for fewer than three temperatures.
     """
+    from scipy.optimize import least_squares
+
     temperatures = np.array([sweep.temperature for sweep in sweeps])
     if np.unique(np.round(temperatures)).size < 3:
         raise InputError("WLF fit", f"{np.unique(np.round(temperatures)).size} temperature(s)", "at least 3")
@@ -214,4 +214,6 @@ class _Overlap:
 def _spline_basis(x: Array, intervals: int) -> Array:
     low, high = float(x.min()) - 1e-9, float(x.max()) + 1e-9
     knots = np.concatenate([[low] * 3, np.linspace(low, high, intervals + 1), [high] * 3])
+    from scipy.interpolate import BSpline
+
     return np.asarray(BSpline.design_matrix(x, knots, 3).toarray(), dtype=np.float64)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtri
 
 Array = NDArray[np.float64]
 
@@ -38,6 +37,8 @@ def outliers(residuals: list[Array]) -> list[NDArray[np.bool_]]:
     """
     apart = [standing_off(residual) for residual in residuals]
     pooled = np.abs(np.concatenate(apart))
+    from scipy.special import ndtri
+
     limit = float(ndtri(1.0 - 0.5 * FALSE_ALARM / pooled.size)) / MEDIAN_OVER_DEVIATION
     everywhere = float(np.median(pooled))
     marked = []

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from ..errors import InputError
 from .collocation import collocate, relaxation_times
@@ -46,6 +45,8 @@ def refine_times(fit: PronyFit, loss_weight: float = 1.0) -> PronyFit:
 
     low, high = np.log(1.0 / (REACH * w.max())), np.log(REACH / w.min())
     start = np.clip(np.log(fit.series.relaxation_times), low + 1e-6, high - 1e-6)
+    from scipy.optimize import least_squares
+
     found = least_squares(residual, start, jac=jacobian, bounds=(low, high), max_nfev=100, xtol=1e-8, ftol=1e-8)
     times = settled(np.exp(_apart(np.sort(found.x))))
     refined = fit_prony(w, storage, loss, times, fit.series.reference_temperature, loss_weight, method="non_negative")

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from .collocation import Collocation
 
@@ -77,5 +76,7 @@ def non_negative(system: Collocation) -> Array:
     if matrix.shape[0] > TALL * matrix.shape[1]:
         turned, matrix = np.linalg.qr(matrix)
         target = turned.T @ target
+    from scipy.optimize import nnls
+
     solution, _ = nnls(matrix, target, maxiter=50 * matrix.shape[1])
     return np.asarray(solution * scale, dtype=np.float64)

@@ -7,7 +7,6 @@ from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
-from scipy.optimize import brentq
 
 from ...errors import InputError
 from ...fields import FileName, Name
@@ -61,6 +60,8 @@ def _touching_arcs(line: TabulatedLine, height: float, where: str) -> tuple[floa
         raise InputError(where, "a path on which the block never touches the road", "a path that comes down to it")
     if inside[0] == 0 or inside[-1] == arcs.size - 1:
         raise InputError(where, "a trace that ends inside the contact", "a trace that goes on until the block is clear")
+    from scipy.optimize import brentq
+
     first = brentq(gap, arcs[inside[0] - 1], arcs[inside[0]], xtol=1e-13)
     last = brentq(gap, arcs[inside[-1]], arcs[inside[-1] + 1], xtol=1e-13)
     return float(first), float(last)
