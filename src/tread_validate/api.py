@@ -54,9 +54,12 @@ def run(case: Case, model: str | Function = "paper") -> History:
     92.8
     """
     if isinstance(model, str):
+        from .spring import resolve_creep
         from .spring import run as run_spring
+        from .validity import with_expectation
 
-        return run_spring(case, model)
+        (case,) = resolve_creep([case])
+        return with_expectation(run_spring(case, model), case, model)
     from .case_file.build import case_file
     from .models.checks import as_history, check_history
     from .spring import resolve_creep

@@ -31,6 +31,7 @@ def command(
     from ..spring import resolve_creep, run, variants
     from ..spring.summary import summary_csv, summary_row
     from ..study import load_study
+    from ..validity import with_expectation
     from ..workspace import Workspace
 
     if variant == "list":
@@ -51,7 +52,7 @@ def command(
     histories, rows = [], []
     # every case runs before the first file is written, so that a wrong one leaves nothing behind
     for one in track(cases, "spring", console=console, transient=True, disable=not sys.stderr.isatty()):
-        history = run(one, variant)
+        history = with_expectation(run(one, variant), one, variant)
         histories.append(history)
         rows.append(summary_row(one, history, variant))
         if "caution" in history.provenance:
@@ -59,7 +60,7 @@ def command(
         if not every:
             typer.echo(
                 f"{one.case_id}: creep ratio {one.creep_ratio:.5f}, "
-                f"peak normal force {rows[-1]['peak_normal_force_N']} N"
+                f"peak normal force {rows[-1]['peak_normal_force_N']} N\n  {history.provenance['expected_error']}"
             )
     if one_file:
         histories[0].write_csv(target)

@@ -38,9 +38,12 @@ def build(base: Case, output: Path, settings: Settings, say: Callable[[str], Non
     begin = time.monotonic()
     cases = design(base, settings.runs)
     done = run_points(cases, output / "points", say, lambda: time.monotonic() - begin < 60.0 * settings.minutes)
-    points = [point for point in (point_of(data, f"fe_{MESHES[1]}") for data in done) if point is not None]
+    points = [point for point in (point_of(data, MESHES[1]) for data in done) if point is not None]
     refused = sum("refused" in data for data in done)
-    say(f"{len(points)} of {settings.runs} points, {refused} refused, {settings.runs - len(done)} still to run")
+    weak = len(done) - refused - len(points)
+    left = settings.runs - len(done)
+    told = f"{refused} refused, {weak} whose FE is no reference, {left} still to run"
+    say(f"{len(points)} of {settings.runs} points, {told}")
     if not points:
         raise InputError("map", "no point done", "more minutes")
     write_text(output / "map.csv", table_text(points))

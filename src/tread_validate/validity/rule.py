@@ -8,12 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..friction import Coulomb
+from ..history import History
 from ..study import Case
 from .groups import NAMES, coordinates, groups_of
 from .table import ERRORS, Point, committed
 
 NEAREST = 8
 """Points of the same kind (path and mounting) that an expectation rests on."""
+SLIDES = 0.5
+"""Creep over the sticking limit up to which the law of slip hardly matters: the map's friction is constant."""
 SLACK = 0.05
 """A group may lie outside the points by this share of their range."""
 
@@ -68,9 +71,13 @@ def expected_error(case: Case, model: str, points: Sequence[Point] | None = None
     if len(known) <= NEAREST:
         said = f"{len(known)} points of kind {kind} for {model}"
         return Expectation(None, None, None, {}, (*outside, said), len(known))
-    if not isinstance(case.friction, Coulomb) or case.friction.kinetic_coefficient < case.friction.static_coefficient:
-        outside.append("a friction coefficient that falls when slip begins")
-    here = coordinates(groups_of(case))
+    groups = groups_of(case)
+    steady = isinstance(case.friction, Coulomb) and (
+        case.friction.kinetic_coefficient >= case.friction.static_coefficient
+    )
+    if not steady and abs(groups.creep) > SLIDES:
+        outside.append("much slip under a friction law that depends on it")
+    here = coordinates(groups)
     places = np.array([coordinates(point.groups) for point in known])
     low, high = places.min(axis=0), places.max(axis=0)
     size = np.maximum(high - low, 1e-9)
@@ -91,3 +98,9 @@ def expected_error(case: Case, model: str, points: Sequence[Point] | None = None
     return Expectation(
         expected["normal"], expected["impulse"], expected["tangential"], likely, tuple(outside), len(known)
     )
+
+
+def with_expectation(history: History, case: Case, model: str) -> History:
+    """Return a prediction that says what error to expect of it (``expected_error`` in its provenance)."""
+    said = str(expected_error(case, model))
+    return history.with_provenance({**history.provenance, "expected_error": said})

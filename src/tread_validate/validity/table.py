@@ -17,6 +17,9 @@ from .groups import NAMES, Groups
 TABLE = Path(__file__).resolve().parent / "map.csv"
 ERRORS = ("normal", "impulse", "tangential")
 """Peak N and impulse over FE's, peaks of T over the larger one of FE's."""
+MOST_RESIDUAL, MOST_ARTIFICIAL, MOST_MESH_ERROR = 0.01, 0.02, 0.05
+"""Energy residual and hourglass energy (over the internal one) and mesh error of peak N beyond which a run is no
+reference."""
 KINDS = ("belt, flat", "belt, conforming", "rig, conforming", "rig, flat")
 
 
@@ -39,13 +42,23 @@ class Point:
     errors: Mapping[str, Mapping[str, float]]
 
 
-def point_of(data: Mapping[str, Any], finest: str) -> Point | None:
-    """Return the point of a run's data, None for one that was refused; `finest` names the finer mesh's forces."""
-    if "refused" in data or "models" not in data:
+def point_of(data: Mapping[str, Any], mesh: int) -> Point | None:
+    """Return the point of a run's data; None for one that was refused, or whose FE runs are no reference.
+
+    `mesh` is the number of elements per height of the finer mesh.
+    """
+    if "refused" in data or "models" not in data or not is_reference(data, mesh):
         return None
-    limit = data["limit"]
+    finest, limit = f"fe_{mesh}", data["limit"]
     errors = {model: relative(forces, limit) for model, forces in data["models"].items()}
     return Point(data["case_id"], data["kind"], Groups(**data["groups"]), relative(data[finest], limit), errors)
+
+
+def is_reference(data: Mapping[str, Any], mesh: int) -> bool:
+    """Tell whether the finer FE run balances its energy, is not held up by hourglass forces, and is near its limit."""
+    if data[f"residual_{mesh}"] > MOST_RESIDUAL or data[f"artificial_{mesh}"] > MOST_ARTIFICIAL:
+        return False
+    return abs(float(data[f"fe_{mesh}"]["normal"]) / float(data["limit"]["normal"]) - 1.0) <= MOST_MESH_ERROR
 
 
 def relative(forces: Mapping[str, float], limit: Mapping[str, float]) -> dict[str, float]:

@@ -14,7 +14,7 @@ from tread_validate.validity.build import coverage, held_out
 from tread_validate.validity.design import RANGES, design
 from tread_validate.validity.groups import coordinates, groups_of
 from tread_validate.validity.rule import NEAREST, expected_error
-from tread_validate.validity.table import Point, committed, point_of, read_table, relative, table_text
+from tread_validate.validity.table import Point, committed, is_reference, point_of, read_table, relative, table_text
 
 COUNT = 96
 
@@ -103,7 +103,14 @@ def test_errors_are_relative_to_the_limit_of_the_meshes():
 
 
 def test_a_refused_point_is_none(cases):
-    assert point_of({"refused": "why"}, "fe_6") is None
+    assert point_of({"refused": "why"}, 6) is None
+
+
+@pytest.mark.parametrize("fault", [{"residual_6": 0.02}, {"artificial_6": 0.03}, {"fe_6": {"normal": 90.0}}, {}])
+def test_an_fe_run_that_is_no_reference_makes_no_point(fault):
+    """Energy residual above 1 %, hourglass energy above 2 %, or 5 % from the limit of its meshes."""
+    data = {"residual_6": 0.0, "artificial_6": 0.001, "fe_6": {"normal": 99.0}, "limit": {"normal": 100.0}}
+    assert is_reference({**data, **fault}, 6) == (not fault)
 
 
 def test_the_rule_finds_an_error_that_depends_on_the_groups(cases):
@@ -125,8 +132,8 @@ def test_the_rule_says_where_it_ends(cases, base):
     assert "poisson" in expected_error(rubbery, "coupled", points).outside
     deep = replace(inside, interference=0.3 * inside.height)
     assert "interference" in expected_error(deep, "coupled", points).outside
-    huemer = replace(inside, friction=base.friction)
-    assert any("falls" in why for why in expected_error(huemer, "coupled", points).outside)
+    huemer = replace(inside, friction=base.friction, creep_ratio=0.2)
+    assert any("law" in why for why in expected_error(huemer, "coupled", points).outside)
     few = expected_error(inside, "coupled", points[:NEAREST])
     assert few.normal is None
     assert "outside the map" in str(few)
