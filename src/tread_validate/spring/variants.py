@@ -52,9 +52,9 @@ BUILT_IN: Mapping[str, tuple[str, str]] = {
     ),
     "coupled": (
         "coupled.face_pass:prepare_coupled",
-        "springs that know their neighbours: the block condensed on to its face, 1 mm",
+        "springs that know their neighbours: the block condensed on to its face, 8 elements a height",
     ),
-    "coupled_coarse": ("coupled.face_pass:prepare_coarse", "the same on a 2 mm face, for many runs"),
+    "coupled_coarse": ("coupled.face_pass:prepare_coarse", "the same with 4 elements a height, for many runs"),
 }
 COMMON = ("spring.run", "spring.summary", "spring.block_pass")
 """Code behind every variant: the run, its summary, and the paper's model, which finds the creep of free rolling."""
