@@ -18,6 +18,8 @@ from tread_validate.study.reference_page import study_reference
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "docs" / "generated"
+STUDY = "liu2010"
+TABLES = ROOT / "results" / STUDY / "tables"
 FIGURES = (
     "rig-sketch", "belt-sketch", "moduli-surrogate", "friction-road", "belt-heights", "belt-curvature",
     "rig-histories-22c-normal", "rig-histories-22c-tangential", "peaks-rectangle-22c", "peaks-parallelogram-22c",
@@ -29,7 +31,7 @@ NOT_MADE = "not made yet: run `make report`, then `make docs`"
 
 def rows(name: str) -> list[dict[str, str]]:
     """Return the rows of a table of the pipeline, none where it has not been made."""
-    path = ROOT / "results" / "tables" / name
+    path = TABLES / name
     if not path.is_file():
         return []
     with path.open(encoding="utf-8", newline="") as stream:
@@ -47,7 +49,7 @@ def table(columns: dict[str, str], items: list[dict[str, str]]) -> str:
 
 def figure(name: str, caption: str) -> str:
     """Return an image of the report, or words in its place."""
-    source = ROOT / "reports" / "figures" / f"{name}.png"
+    source = ROOT / "reports" / STUDY / "figures" / f"{name}.svg"
     if not source.is_file():
         return f"*{caption}: {NOT_MADE}.*"
     shutil.copyfile(source, OUT / source.name)
@@ -68,10 +70,11 @@ def walkthrough() -> str:
 
 def validation() -> str:
     """Return the numbers of the last comparison."""
-    provenance = ROOT / "results" / "tables" / "provenance.json"
+    provenance = TABLES / "provenance.json"
     facts = json.loads(provenance.read_text(encoding="utf-8")) if provenance.is_file() else {}
     ensemble = [row for row in rows("ensemble.csv") if row["quantity"] == "peak_normal_force" and row["group"] == "all"]
-    claims = [row for row in rows("claims.csv") if row["kind"] != "context"]
+    # as the report counts: what a model predicts, not what was put in or made to fit
+    claims = [row for row in rows("claims.csv") if row["kind"] == "model" and row["status"] != "not_compared"]
     verdicts: dict[str, dict[str, int]] = {}
     for row in claims:
         source = row["source"] or "input"
@@ -85,7 +88,7 @@ def validation() -> str:
     return "\n\n".join(
         [
             "# Validation: the numbers of the last run",
-            "Written by `make docs` from `results/tables`; code commit "
+            f"Written by `make docs` from `results/{STUDY}/tables`; code commit "
             f"{facts.get('commit', facts.get('code', {}).get('commit', 'unknown'))}. Verification, which asks whether"
             " the equations are solved rightly, is another question: see the pages on the engine and the models.",
             "## Peak normal force against the FE reference, all runs",
@@ -116,7 +119,7 @@ def validation() -> str:
                 },
                 coefficients,
             ),
-            "## Published statements",
+            "## Published statements that a model predicts",
             table(
                 {
                     "source": "source",
