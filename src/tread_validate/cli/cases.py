@@ -13,6 +13,7 @@ def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
     as_json: Annotated[bool, typer.Option("--json", help="print JSON instead of a table")] = False,
     ids: Annotated[bool, typer.Option("--ids", help="print the case ids only, one a line")] = False,
+    accept: Annotated[bool, typer.Option("--accept-fit", help="go on with a fit that is too far off")] = False,
 ) -> None:
     """List the cases of a study with their conditions.
 
@@ -39,6 +40,9 @@ def command(
     assumed = sorted({item for case in cases for item in case.assumed()})
     if assumed:
         typer.echo("assumed or synthetic inputs: " + "; ".join(assumed))
+    from .laboratory import tell_worth
+
+    tell_worth(cases, study, accept)
 
 
 def _cell(value: object, free_rolling: bool) -> str:

@@ -20,6 +20,7 @@ def command(
             "-o", "--output", help="folder; each case gets one of its own in it [default: the study's, in fe_inputs]"
         ),
     ] = None,
+    accept: Annotated[bool, typer.Option("--accept-fit", help="go on with a fit that is too far off")] = False,
     element_size: Annotated[
         float | None,
         typer.Option(
@@ -58,6 +59,9 @@ def command(
         from ..spring import resolve_creep
 
         cases = resolve_creep(cases)
+    from .laboratory import tell_worth
+
+    tell_worth(cases, study, accept)
     mesh = {"element_size_mm": element_size, "layers": layers}
     for one in (with_mesh(one, {key: value for key, value in mesh.items() if value is not None}) for one in cases):
         written = deck.write(one, output / one.case_id, single_file=single_file, general_contact=general_contact)

@@ -32,6 +32,8 @@ def command(
         float,
         number("--ts", "temperature_degC", "temperature that C1 and C2 refer to, degC"),
     ] = 10.0,
+    poisson: Annotated[float, number("--poissons-ratio", "poissons_ratio", "for the file and the card")] = 0.47,
+    density: Annotated[float, number("--density-kg-m3", "density_kg_m3", "for the file and the card")] = 1000.0,
     fit_wlf: Annotated[bool, typer.Option("--fit-wlf", help="fit C1 and C2 instead (three temperatures)")] = False,
     vertical: Annotated[bool, typer.Option("--vertical-shift", help="with --fit-wlf: a factor a sweep too")] = False,
     times: Annotated[str, typer.Option("--times", help="relaxation times: auto, even or refined")] = "auto",
@@ -70,6 +72,7 @@ def command(
     from ..material import RouteSettings, abaqus_card, read_route
     from ..material.material_file import material_yaml
     from ..material.route import Times
+    from ..material.worth import REFUSE_ABOVE, WARN_ABOVE
     from ..study import Wlf
     from .laboratory import checked_origin, provenance, reading_of, write_all
 
@@ -99,10 +102,14 @@ def command(
         replicates=replicates,
     )
     route = read_route(sweeps, wlf, reference, settings, None, confirm, master, reading)
-    text = material_yaml(route.fit.series, route.wlf, kind, told, route.quality(), provenance(*sweeps))
+    text = material_yaml(
+        route.fit.series, route.wlf, kind, told, route.quality(), provenance(*sweeps), poisson, density
+    )
     files = {output: text}
     if card is not None:
-        files[card] = f"** {kind} data: {told}\n" + abaqus_card(route.fit.series, route.wlf)
+        files[card] = f"** {kind} data: {told}\n" + abaqus_card(
+            route.fit.series, route.wlf, poissons_ratio=poisson, density=density
+        )
     write_all(files)
     if figure is not None:
         from . import laboratory_figures as draw
@@ -119,8 +126,21 @@ def command(
             f"fitted WLF at {reference:g} degC: C1 = {route.wlf.c1:.4f} +- {1.96 * route.wlf_fit.deviations[0]:.4f}, "
             f"C2 = {route.wlf.c2_K:.2f} +- {1.96 * route.wlf_fit.deviations[1]:.2f} K (95 %)"
         )
+    typer.echo(f"shift: {_shift_told(fit_wlf, (c1, c2, ts))}")
+    if (poisson, density) == (0.47, 1000.0):
+        typer.echo("not given, so the paper's: Poisson's ratio 0.47, 1000 kg/m3")
+    worst = max(route.fit.storage_rms, route.fit.loss_rms)
+    if worst > WARN_ABOVE:
+        after = f"; above {100 * REFUSE_ABOVE:g} % a study refuses it" if worst > REFUSE_ABOVE else ""
+        typer.echo(f"warning: the fit misses the data by {100 * worst:.3g} % RMS{after}")
     if route.bands_refused:
         typer.echo(f"warning: no bands: {route.bands_refused}")
     if not route.consistency.consistent:
         typer.echo("warning: storage and loss modulus are not consistent with each other (Kramers-Kronig)")
     typer.echo(f"wrote {output}")
+
+
+def _shift_told(fitted: bool, constants: tuple[float, float, float]) -> str:
+    if fitted:
+        return "constants fitted to the overlap of the sweeps"
+    return "the paper's constants, none were given" if constants == (8.86, 101.6, 10.0) else "constants as given"

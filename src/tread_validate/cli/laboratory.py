@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ from ..files import write_text
 
 if TYPE_CHECKING:
     from ..instrument import Quantity, Reading
+    from ..study import Case
 
 ORIGINS = ("measured", "synthetic")
 
@@ -71,6 +72,19 @@ def reading_of(columns: list[str] | None, units: Mapping[str, str | None], quant
             raise InputError("--column", one_line(pair, 60), f"KEY=COLUMN with KEY one of {', '.join(keys)}")
         chosen[key] = column
     return Reading(chosen, {option: unit for option, unit in units.items() if unit is not None})
+
+
+def tell_worth(cases: Sequence[Case], study: Path, accept: bool) -> None:
+    """Print what each compound's series is worth for these cases; raises `InputError` for one too far off."""
+    import typer
+
+    from ..material.worth import worths
+
+    for worth in worths(cases):
+        for line in worth.lines():
+            typer.echo(line, err=line.startswith("warning"))
+        if not accept:
+            worth.refuse(str(study))
 
 
 def write_all(files: Mapping[Path, str]) -> None:
