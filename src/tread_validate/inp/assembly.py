@@ -98,6 +98,7 @@ class _Resolver:
         self.instances: list[tuple[int, str]] = []
         self.names: set[str] = set()
         self.next_label = 0
+        self.uncounted: list[KeywordBlock] = []
         self.open: list[KeywordBlock] = []
         self.held: _Part | None = None
         self.assembly: _Part | None = None
@@ -230,9 +231,10 @@ class _Resolver:
         except InputError as error:
             self.report("structure", error.where, error.found, error.expected)
             motion = still()
-        largest = _largest_label(blocks)
-        first, self.next_label = self.next_label, self.next_label + _round_up(largest)
-        if self.next_label > LARGEST_LABEL:
+        if self.uncounted:  # counted when another instance comes: a deck of one needs no count
+            self.next_label += _round_up(_largest_label(self.uncounted))
+        first, self.uncounted = self.next_label, blocks
+        if first + (_largest_label(blocks) if first else 0) > LARGEST_LABEL:
             self._tell("structure", at, f"labels beyond {LARGEST_LABEL} in all instances together", "fewer or lower")
             return
         self.instances.append((first, name))

@@ -42,7 +42,7 @@ class Sets:
         report: Report = stop,
         open_mesh: bool = False,
     ) -> None:
-        self.known: dict[str, Ints] = {"node": np.unique(nodes), "element": np.unique(elements)}
+        self.known: dict[str, Ints] = {"node": sorted_labels(nodes), "element": sorted_labels(elements)}
         self.tables: dict[str, dict[str, Ints]] = {"node": {}, "element": {}}
         self._nodes_of_elements = nodes_of_elements
         self._report = report
@@ -62,7 +62,8 @@ class Sets:
         """Add labels to a set of ``node`` or ``element``; without a name nothing is done."""
         if name:
             table = self.tables[what]
-            table[name] = np.union1d(table.get(name, NONE), members)
+            old = table.get(name)
+            table[name] = sorted_labels(members if old is None else np.concatenate([old, members]))
 
     def find(self, what: str, text: str) -> Ints | None:
         """Return the labels that a field means: a set's, or the one label; None where there is no such."""
@@ -111,7 +112,7 @@ class Sets:
         rows = integer_rows(block.data.with_texts([",".join(texts)]), sum(text.count(",") + 1 for text in texts))
         if rows is None:
             return None
-        members: Ints = np.unique(rows)
+        members = sorted_labels(rows.ravel())
         return members if self._open or np.isin(members, self.known[what], assume_unique=True).all() else None
 
     def _member(self, text: str, line: DataLine, what: str) -> Ints:
@@ -158,6 +159,16 @@ class Sets:
                 self._report("dangling-elset", where, f"element set {source}", "an element set that exists")
             return NONE
         return self._nodes_of_elements(members)
+
+
+def sorted_labels(labels: Ints) -> Ints:
+    """Return labels in rising order, each once; what is so already is returned as it is."""
+    if labels.size < 2 or bool(np.all(labels[1:] > labels[:-1])):
+        return labels
+    rising = np.sort(labels)
+    kept = np.ones(rising.size, dtype=np.bool_)
+    kept[1:] = rising[1:] != rising[:-1]
+    return np.asarray(rising[kept], dtype=np.int64)
 
 
 def is_label(text: str) -> bool:

@@ -87,3 +87,35 @@ def integer_rows(lines: Lines, width: int) -> Ints | None:
             return None
         table[first : first + len(listed)] = rows.reshape(-1, width)
     return table
+
+
+def plain_rows(lines: Lines) -> Floats | None:
+    """Return lines of equally many plain numbers, a label first, as rows; None where a line is anything else."""
+    if not len(lines):
+        return np.zeros((0, 1))
+    width = lines.texts[0].count(",") + 1
+    parts = []
+    for first in range(0, len(lines), CHUNK):
+        rows = _uniform(lines.texts[first : first + CHUNK], width)
+        if rows is None:
+            return None
+        parts.append(rows)
+    return np.concatenate(parts)
+
+
+def all_numbers(lines: Lines, least: int, most: int) -> bool:
+    """Whether every line holds `least` to `most` plain finite numbers; False says only that one should look closer."""
+    for first in range(0, len(lines), CHUNK):
+        texts = list(lines.texts[first : first + CHUNK])
+        if any(not least <= text.count(",") + 1 <= most for text in texts):
+            return False
+        joined = ",".join(texts)
+        if "_" in joined:
+            return False
+        try:
+            values = np.array(list(map(float, joined.split(","))))
+        except ValueError:
+            return False
+        if not np.isfinite(values).all():
+            return False
+    return True

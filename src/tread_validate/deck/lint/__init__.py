@@ -3,47 +3,74 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Literal
 
 from ...errors import InputError
 from ...inp import read_deck
 from .contact_rules import check_contact
-from .findings import Finding, Findings
+from .findings import Finding, Findings, Rule, catalogue, find_rule
 from .mesh_rules import check_mesh
-from .motion_rules import check_motion
-from .names import collect
+from .motion_rules import check_motion, check_steps
+from .names import collect, unique
+from .output import FORMATS, formatted
 from .syntax import check_syntax
 
-__all__ = ["Finding", "lint"]
+__all__ = ["FORMATS", "Dialect", "Finding", "Rule", "catalogue", "find_rule", "formatted", "lint"]
+
+Dialect = Literal["abaqus", "calculix"]
 
 
-def lint(path: Path | str) -> list[Finding]:
+def lint(
+    path: Path | str, dialect: Dialect = "abaqus", select: Sequence[str] = (), ignore: Sequence[str] = ()
+) -> list[Finding]:
     """Return the findings of a deck, in the order of its lines; none for a clean deck.
 
-    Knows flat decks. Names inside ``*PART`` and ``*INSTANCE`` are not followed; such a deck is checked for form only
-    and says so in a warning.
+    Parameters
+    ----------
+    path : Path or str
+        The deck; what it includes is checked with it, at its own lines.
+    dialect : str
+        ``abaqus``, or ``calculix`` for decks of that program: its keywords, without the rules of ABAQUS/Explicit.
+    select, ignore : sequences of str
+        Codes (``TV101``), beginnings of codes (``TV1``) or names of rules; with `select` only those are kept, those
+        of `ignore` are left out.
 
     Raises
     ------
     InputError
-        The file is missing, empty or binary.
+        The file is missing, empty or binary, or a code names no rule.
     """
+    chosen, left = _rules(select), _rules(ignore)
     findings = Findings()
     try:
-        deck = read_deck(path)
+        deck = read_deck(path, lambda rule, where, found, expected: findings.at(where, rule, found, expected))
     except InputError as error:
         located = re.fullmatch(r"(.+?):(\d+)(?::.*)?", error.where)
         if located is None:
             raise
         message = f"{error.where.split(': ', 1)[-1]}: {error.found}, expected {error.expected}"
-        return [Finding(located[1], int(located[2]), "syntax", message)]
-    check_syntax(deck, findings)
-    parts = next(deck.named("PART", "INSTANCE", "ASSEMBLY"), None)
-    if parts is not None:
-        findings.add(parts, "parts", "parts and instances: checked for form only, names are not followed", "warning")
+        findings.append(Finding(located[1], int(located[2]), "syntax", message))
     else:
-        names = collect(deck, findings)
+        check_syntax(deck, findings, dialect)
+        names = collect(deck, findings, dialect)
         check_mesh(deck, names, findings)
-        check_motion(deck, names, findings)
-        check_contact(deck, names, findings)
-    return sorted(set(findings))
+        if dialect == "abaqus":
+            check_motion(deck, names, findings)
+            check_contact(deck, names, findings)
+        else:
+            check_steps(deck, findings)
+    kept = [one for one in findings if (not chosen or one.rule in chosen) and one.rule not in left]
+    return unique(kept)
+
+
+def _rules(words: Sequence[str]) -> set[str]:
+    """Return the names of the rules that codes, beginnings of codes or names stand for."""
+    found: set[str] = set()
+    for word in words:
+        mine = {rule.name for rule in catalogue().values() if word == rule.name or rule.code.startswith(word.upper())}
+        if not mine:
+            raise InputError("lint", word, "a code such as TV101, the beginning of one, or the name of a rule")
+        found |= mine
+    return found

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 
-from ...inp import DataLine, Deck, KeywordBlock
+import numpy as np
+
+from ...inp import DataLine, Deck, KeywordBlock, label
+from ...inp.vocabulary import keywords
+from .elements import face_count
 from .findings import Findings
 from .names import Names
 from .syntax import is_number, number
-from .table import FACES, KEYWORDS
 
-SHELL_FACES = frozenset({"SPOS", "SNEG", ""})
 ANALYTICAL = frozenset({"CYLINDER", "REVOLUTION", "SEGMENTS"})
 
 
@@ -27,30 +30,54 @@ def check_contact(deck: Deck, names: Names, findings: Findings) -> None:
         elif kind in ANALYTICAL:
             _check_profile(block, kind, findings)
     analytical = {name for name, block in names.named["SURFACE"].items() if block.parameters.get("TYPE") in ANALYTICAL}
-    held = {(block.parameters.get("ANALYTICAL SURFACE") or "").upper() for block in deck.named("RIGID BODY")}
-    for name in sorted(analytical - held):
+    held = {block.parameters.get("ANALYTICAL SURFACE") or "" for block in deck.named("RIGID BODY")}
+    for name in sorted(analytical - held if not names.gaps else ()):
         findings.add(names.named["SURFACE"][name], "loose-surface", f"analytical surface {name} is in no *RIGID BODY")
     for block in deck.named("CONTACT PAIR"):
         _check_pair(block, names, analytical, findings)
     if names.explicit:
         _check_place_of_pairs(deck, findings)
     _check_friction(deck, names, findings)
+    _check_references(deck, names, findings)
     _check_output(deck, names, findings)
 
 
+def _check_references(deck: Deck, names: Names, findings: Findings) -> None:
+    """Check the surfaces that ties, couplings and general contact name."""
+    for block in deck.named("TIE", "CONTACT INCLUSIONS", "CONTACT EXCLUSIONS"):
+        for line in block.data:
+            for text in line.fields[:2]:
+                if text and not names.has("SURFACE", text) and names.nodes_of(text) is None:
+                    findings.add(line, "dangling-surface", f"*{block.keyword}: there is no *SURFACE {text}")
+    for block in deck.named("COUPLING"):
+        surface = block.parameters.get("SURFACE")
+        if surface and not names.has("SURFACE", surface):
+            findings.add(block, "dangling-surface", f"*COUPLING: there is no *SURFACE {surface}")
+        reference = block.parameters.get("REF NODE")
+        if reference and names.nodes_of(reference) is None:
+            findings.add(block, "dangling-nset", f"*COUPLING, REF NODE={reference}: there is no such node or set")
+
+
 def _check_element_surface(block: KeywordBlock, names: Names, findings: Findings) -> None:
+    if {"COMBINE", "CROP", "TRIM"} & set(block.parameters) and "COMBINE" in block.parameters:
+        for line in block.data:
+            for text in line.fields:
+                if text and not names.has("SURFACE", text):
+                    findings.add(line, "dangling-surface", f"*SURFACE, COMBINE: there is no *SURFACE {text}")
+        return
     for line in block.data:
         target = line.fields[0] if line.fields else ""
-        label = (line.fields[1] if len(line.fields) > 1 else "").upper()
+        face = (line.fields[1] if len(line.fields) > 1 else "").upper()
         ids = names.elements_of(target) if target else None
         if target and ids is None:
             findings.add(line, "dangling-elset", f"*SURFACE: there is no element or element set {target}")
-        if label in SHELL_FACES:
+        if ids is None or not ids.size or not re.fullmatch(r"S\d+", face):
             continue
-        kinds = {part.kind for part in names.elements if ids is not None and set(part.ids) & set(ids)}
-        most = min((FACES.get(kind, 6) for kind in kinds), default=6)
-        if not (label.startswith("S") and label[1:].isdigit() and 1 <= int(label[1:]) <= most):
-            findings.add(line, "surface-face", f"*SURFACE: face {label}: expected S1 to S{most}")
+        mine = [part for part in names.elements if np.isin(ids, part.ids).any()]
+        counts = [face_count(part.kind) for part in mine]
+        known = [count for count in counts if count is not None]
+        if known and len(known) == len(counts) and not 1 <= int(face[1:]) <= max(known):
+            findings.add(line, "surface-face", f"*SURFACE: face {face}: expected S1 to S{max(known)}")
 
 
 def _check_profile(block: KeywordBlock, kind: str, findings: Findings) -> None:
@@ -123,12 +150,12 @@ def _check_pair(block: KeywordBlock, names: Names, analytical: set[str], finding
     if interaction and not names.has("SURFACE INTERACTION", interaction):
         findings.add(block, "dangling-interaction", f"*CONTACT PAIR: there is no *SURFACE INTERACTION {interaction}")
     for line in block.data:
-        pair = [text.upper() for text in line.fields[:2]]
+        pair = [label(text) for text in line.fields[:2]]
         for name in pair:
             if name and not names.has("SURFACE", name):
                 findings.add(line, "dangling-surface", f"*CONTACT PAIR: there is no *SURFACE {name}")
-        if len(pair) < 2:
-            findings.add(line, "contact-pair", "*CONTACT PAIR: expected two surfaces")
+        if not pair or not pair[0]:
+            findings.add(line, "contact-pair", "*CONTACT PAIR: expected two surfaces, or one for self-contact")
         elif pair[0] in analytical:
             findings.add(line, "contact-pair", f"analytical surface {pair[0]} must come second: it cannot be the slave")
 
@@ -145,13 +172,13 @@ def _check_friction(deck: Deck, names: Names, findings: Findings) -> None:
     owner: KeywordBlock | None = None
     general = next(deck.named("CONTACT"), None)
     assigned = {
-        line.fields[-1].upper()
+        label(line.fields[-1])
         for block in deck.named("CONTACT PROPERTY ASSIGNMENT")
         for line in block.data
         if line.fields
     }
     for line in (line for block in deck.named("CONTACT PROPERTY ASSIGNMENT") for line in block.data):
-        if line.fields and not names.has("SURFACE INTERACTION", line.fields[-1]):
+        if line.fields and line.fields[-1] and not names.has("SURFACE INTERACTION", line.fields[-1]):
             findings.add(
                 line, "dangling-interaction", f"there is no *SURFACE INTERACTION {line.fields[-1] or '(blank)'}"
             )
@@ -161,7 +188,7 @@ def _check_friction(deck: Deck, names: Names, findings: Findings) -> None:
         if block.keyword != "FRICTION":
             continue
         if "USER" in block.parameters:
-            name = (owner.parameters.get("NAME") or owner.parameters.get("INTERACTION") or "").upper() if owner else ""
+            name = (owner.parameters.get("NAME") or owner.parameters.get("INTERACTION") or "") if owner else ""
             _check_user_friction(deck, position, block, name, findings)
             kind = block.parameters["USER"] or "FRIC"
             pairs = [one for one in deck.named("CONTACT PAIR") if (one.parameters.get("INTERACTION") or "") == name]
@@ -224,7 +251,7 @@ def _siblings(deck: Deck, position: int, direction: int) -> list[KeywordBlock]:
     position += direction
     while 0 <= position < len(deck.blocks):
         block = deck.blocks[position]
-        known = KEYWORDS.get(block.keyword)
+        known = keywords().get(block.keyword)
         if known is None or "SURFACE INTERACTION" not in known.parents:
             break
         found.append(block)
@@ -239,7 +266,7 @@ def _check_output(deck: Deck, names: Names, findings: Findings) -> None:
             history = "HISTORY" in block.parameters
         if block.keyword in ("NODE OUTPUT", "NODE FILE", "NODE PRINT", "TRANSFORM"):
             name = block.parameters.get("NSET")
-            if name and name not in names.nsets:
+            if name and not names.has_nset(name):
                 findings.add(block, "dangling-nset", f"*{block.keyword}: there is no node set {name}")
         if block.keyword in (
             "ELEMENT OUTPUT",
@@ -250,12 +277,13 @@ def _check_output(deck: Deck, names: Names, findings: Findings) -> None:
             "INTEGRATED OUTPUT",
         ):
             name = block.parameters.get("ELSET")
-            if name and name not in names.elsets:
+            if name and not names.has_elset(name):
                 findings.add(block, "dangling-elset", f"*{block.keyword}: there is no element set {name}")
         if block.keyword in ("CONTACT OUTPUT", "CONTACT CONTROLS"):
-            name = (block.parameters.get("CPSET") or "").upper()
+            name = block.parameters.get("CPSET") or ""
             if name and not names.has("CPSET", name):
                 findings.add(block, "dangling-cpset", f"*{block.keyword}: there is no *CONTACT PAIR with CPSET={name}")
-            whole = {"CPSET", "SURFACE", "GENERAL CONTACT", "NSET"} & set(block.parameters)
-            if block.keyword == "CONTACT OUTPUT" and names.explicit and history and not whole:
+            whole = {"CPSET", "SURFACE", "GENERAL CONTACT", "NSET", "VARIABLE"} & set(block.parameters)
+            pairs = next(deck.named("CONTACT PAIR"), None) is not None and next(deck.named("CONTACT"), None) is None
+            if block.keyword == "CONTACT OUTPUT" and names.explicit and history and not whole and pairs:
                 findings.add(block, "no-cpset", "*CONTACT OUTPUT of a history needs CPSET= in ABAQUS/Explicit")

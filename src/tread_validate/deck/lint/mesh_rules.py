@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ...inp import Deck, KeywordBlock
+from ...inp.sets import sorted_labels
+from . import elements as kinds
 from .findings import Findings
-from .names import Names
+from .names import ElementTable, Names
 from .syntax import is_number, number
-from .table import HEXAHEDRA, KEYWORDS, SECTION_KEYWORDS, SECTIONLESS
+from .table import LAWS, SECTION_KEYWORDS
 
 MOST = 5
 """Findings of one rule at most in one element block; the last says how many more there are."""
@@ -18,45 +22,77 @@ MOST = 5
 CORNERS = np.array(
     [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]], dtype=float
 )
+CHUNK = 50_000  # elements at a time
 
 
 def check_mesh(deck: Deck, names: Names, findings: Findings) -> None:
     """Check that elements have nodes, a positive Jacobian and one section with a whole material."""
     _check_element_nodes(names, findings)
-    _check_sections(deck, names, findings)
+    used = check_sections(deck, names, findings)
     for name, block in names.named.get("MATERIAL", {}).items():
-        _check_material(deck, names, name, block, findings)
+        _check_material(deck, names, name, block, name in used, findings)
 
 
 def _check_element_nodes(names: Names, findings: Findings) -> None:
     order = np.argsort(names.node_ids)
     sorted_ids = names.node_ids[order]
     for part in names.elements:
-        if not part.ids.size:
+        if not part.nodes.size:
             continue
         if not sorted_ids.size:
-            findings.add(part.block, "undefined-node", "elements without any node")
+            if not names.open_mesh:
+                findings.add(part.block, "undefined-node", "elements without any node")
             continue
         place = np.clip(np.searchsorted(sorted_ids, part.nodes), 0, sorted_ids.size - 1)
         missing = sorted_ids[place] != part.nodes
+        if part.nodes.shape[1] > 8 or not kinds.needs_section(part.kind):
+            missing &= part.nodes != 0  # a midside node or a second end may be left out as 0
         bad = np.flatnonzero(missing.any(axis=1))
-        for count, row in enumerate(bad[:MOST]):
-            node = int(part.nodes[row][missing[row]][0])
-            more = f" (and {bad.size - MOST} more elements)" if count == MOST - 1 and bad.size > MOST else ""
-            findings.add(part.lines[row], "undefined-node", f"element {part.ids[row]}: there is no node {node}{more}")
-        if part.kind not in HEXAHEDRA:
-            continue
-        whole = np.flatnonzero(~missing.any(axis=1))
-        least = _least_jacobian(names.coordinates[order][place[whole]])
-        bad = whole[least <= 0.0]
-        for count, row in enumerate(bad[:MOST]):
-            more = f" (and {bad.size - MOST} more elements)" if count == MOST - 1 and bad.size > MOST else ""
-            findings.add(part.lines[row], "negative-jacobian", f"element {part.ids[row]} is inside out or folded{more}")
+        if not names.open_mesh:
+            for row, more in _first(bad, "elements"):
+                node = int(part.nodes[row][missing[row]][0])
+                text = f"element {names.shown(part.ids[row])}: there is no node {names.shown(node)}{more}"
+                findings.add(part.line(row), "undefined-node", text)
+        _check_volumes(part, names, findings, names.coordinates[order], place, np.flatnonzero(~missing.any(axis=1)))
 
 
-def _least_jacobian(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the least Jacobian determinant at the corners and the centre of (m, 8, 3) hexahedra."""
-    least = np.full(corners.shape[0], np.inf)
+def _first(bad: NDArray[np.int64], what: str) -> Iterator[tuple[int, str]]:
+    """Yield the first few rows, the last of them with how many more there are."""
+    for count, row in enumerate(bad[:MOST].tolist()):
+        rest = bad.size - MOST
+        yield row, f" (and {rest} more {what})" if count == MOST - 1 and rest > 0 else ""
+
+
+def _check_volumes(
+    part: ElementTable,
+    names: Names,
+    findings: Findings,
+    coordinates: NDArray[np.float64],
+    place: NDArray[np.int64],
+    whole: NDArray[np.int64],
+) -> None:
+    """Check the volume of hexahedra and tetrahedra, and the corners of hexahedra."""
+    if not whole.size or not (kinds.is_hexahedron(part.kind) or kinds.is_tetrahedron(part.kind)):
+        return
+    centre, least = np.empty(whole.size), np.empty(whole.size)
+    for first in range(0, whole.size, CHUNK):
+        some = slice(first, first + CHUNK)
+        if kinds.is_tetrahedron(part.kind):
+            a, b, c, d = np.moveaxis(coordinates[place[whole[some]][:, :4]], 1, 0)
+            with np.errstate(all="ignore"):
+                centre[some] = least[some] = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)
+        else:
+            centre[some], least[some] = _jacobians(coordinates[place[whole[some]][:, :8]])
+    for row, more in _first(whole[~(centre > 0.0)], "elements"):
+        text = f"element {names.shown(part.ids[row])} is inside out or folded{more}"
+        findings.add(part.line(row), "negative-jacobian", text)
+    for row, more in _first(whole[(centre > 0.0) & ~(least > 0.0)], "elements"):
+        findings.add(part.line(row), "distorted", f"element {names.shown(part.ids[row])} is folded in a corner{more}")
+
+
+def _jacobians(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the Jacobian determinant at the centre, and the least at the corners, of (m, 8, 3) hexahedra."""
+    found = []
     for at in (*CORNERS, np.zeros(3)):
         factor = 1.0 + CORNERS * at
         gradient = 0.125 * np.stack(
@@ -67,76 +103,121 @@ def _least_jacobian(corners: NDArray[np.float64]) -> NDArray[np.float64]:
             ]
         )
         with np.errstate(all="ignore"):  # absurd coordinates: the determinant is then no number, and is reported
-            least = np.minimum(least, np.linalg.det(np.einsum("dk,mkx->mdx", gradient, corners)))
-    return least
+            a, b, c = np.moveaxis(gradient @ corners, 1, 0)
+            found.append(np.einsum("ij,ij->i", np.cross(a, b), c))
+    return found[-1], np.min(found[:-1], axis=0)
 
 
-def _check_sections(deck: Deck, names: Names, findings: Findings) -> None:
-    owner: dict[int, KeywordBlock] = {}
+def check_sections(deck: Deck, names: Names, findings: Findings) -> set[str]:
+    """Check sections against elements and materials; return the materials that deformable elements use."""
+    used: set[str] = set()
+    covered: list[NDArray[np.int64]] = []
+    owner: dict[str, tuple[KeywordBlock, NDArray[np.int64]]] = {}
+    bodies = [block.parameters.get("ELSET") or "" for block in deck.named("RIGID BODY")]
+    rigid = [names.elsets[name] for name in bodies if name in names.elsets]
+    stiff = sorted_labels(np.concatenate(rigid)) if rigid else np.zeros(0, dtype=np.int64)
     for block in deck.blocks:
-        if block.keyword not in SECTION_KEYWORDS:
-            continue
-        elset = (block.parameters.get("ELSET") or "").upper()
-        ids = names.elsets.get(elset)
-        if ids is None:
-            findings.add(block, "dangling-elset", f"*{block.keyword}: there is no element set {elset or '(none)'}")
-        else:
-            for element in ids.tolist():
-                if element in owner and owner[element] is not block:
-                    findings.add(
-                        block, "two-sections", f"element {element} already has a section in line {owner[element].line}"
-                    )
-                    break
-            owner.update(dict.fromkeys(ids.tolist(), block))
-        for parameter, kind in (
-            ("MATERIAL", "MATERIAL"),
-            ("CONTROLS", "SECTION CONTROLS"),
-            ("ORIENTATION", "ORIENTATION"),
+        elset = block.parameters.get("ELSET")
+        if (
+            not (block.keyword.endswith("SECTION") or block.keyword == "UEL PROPERTY")
+            or block.keyword == "SURFACE SECTION"
         ):
-            name = block.parameters.get(parameter)
-            if name and not names.has(kind, name):
-                rule = f"dangling-{parameter.lower()}"
-                findings.add(block, rule, f"*{block.keyword}, {parameter}={name}: there is no such *{kind}")
-    for part in names.elements:
-        if part.kind in SECTIONLESS:
             continue
-        bare = [index for index, element in enumerate(part.ids.tolist()) if element not in owner]
-        if bare:
-            more = f" (and {len(bare) - 1} more)" if len(bare) > 1 else ""
-            findings.add(part.lines[bare[0]], "no-section", f"element {part.ids[bare[0]]} has no section{more}")
+        _check_section_names(block, names, findings)
+        if not elset:
+            continue
+        if not names.has_elset(elset):
+            if block.keyword in SECTION_KEYWORDS:
+                findings.add(block, "dangling-elset", f"*{block.keyword}: there is no element set {elset}")
+            continue
+        ids = names.elsets.get(elset, np.zeros(0, dtype=np.int64))
+        covered.append(ids)
+        if block.parameters.get("MATERIAL") and not (ids.size and np.isin(ids, stiff).all()):
+            used.add(block.parameters["MATERIAL"] or "")
+        if block.keyword in SECTION_KEYWORDS:
+            for other, before in owner.values():
+                both = np.intersect1d(ids, before, assume_unique=True)
+                if both.size:
+                    element = names.shown(both[0])
+                    text = f"element {element} already has a section in line {other.line}"
+                    findings.add(block, "two-sections", text)
+                    break
+            owner[elset] = (block, ids)
+    _check_bare(
+        names, sorted_labels(np.concatenate(covered)) if covered else np.zeros(0, dtype=np.int64), stiff, findings
+    )
+    return used
 
 
-def _check_material(deck: Deck, names: Names, name: str, block: KeywordBlock, findings: Findings) -> None:
+def _check_section_names(block: KeywordBlock, names: Names, findings: Findings) -> None:
+    for parameter, kind in (
+        ("MATERIAL", "MATERIAL"),
+        ("CONTROLS", "SECTION CONTROLS"),
+        ("ORIENTATION", "ORIENTATION"),
+    ):
+        name = block.parameters.get(parameter)
+        if name and not names.has(kind, name):
+            rule = f"dangling-{parameter.lower()}"
+            findings.add(block, rule, f"*{block.keyword}, {parameter}={name}: there is no such *{kind}")
+
+
+def _check_bare(names: Names, covered: NDArray[np.int64], stiff: NDArray[np.int64], findings: Findings) -> None:
+    if names.open_mesh:
+        return
+    for part in names.elements:
+        if not kinds.needs_section(part.kind):
+            continue
+        bare = np.flatnonzero(~np.isin(part.ids, covered) & ~np.isin(part.ids, stiff))
+        if bare.size:
+            more = f" (and {bare.size - 1} more)" if bare.size > 1 else ""
+            text = f"element {names.shown(part.ids[bare[0]])} has no section{more}"
+            findings.add(part.line(int(bare[0])), "no-section", text)
+
+
+def _check_material(deck: Deck, names: Names, name: str, block: KeywordBlock, used: bool, findings: Findings) -> None:
     options = _options(deck, block)
-    if names.explicit and "DENSITY" not in options:
+    if names.explicit and used and "DENSITY" not in options and not names.gaps:
         findings.add(block, "no-density", f"material {name} has no *DENSITY, which *DYNAMIC, EXPLICIT needs")
-    if not {"ELASTIC", "HYPERELASTIC", "HYPERFOAM", "USER MATERIAL"} & set(options):
+    if used and names.mechanical and not LAWS & set(options) and not names.gaps and not _unknown(options):
         findings.add(block, "no-stiffness", f"material {name} has no *ELASTIC or *HYPERELASTIC")
-    for keyword, least in (("DENSITY", 0.0), ("ELASTIC", 0.0)):
+    for keyword in ("DENSITY", "ELASTIC"):
         for line in options[keyword].data[:1] if keyword in options else ():
             value = line.fields[0]
-            if is_number(value) and number(value) <= least:
+            if is_number(value) and number(value) <= 0.0 and (keyword == "ELASTIC" or names.explicit):
                 findings.add(line, "material-value", f"*{keyword} {value}: expected > 0")
     if "ELASTIC" in options and (options["ELASTIC"].parameters.get("TYPE") or "ISOTROPIC") == "ISOTROPIC":
         for line in options["ELASTIC"].data:
             ratio = line.fields[1] if len(line.fields) > 1 else "0"
-            if is_number(ratio) and not -1.0 < number(ratio or "0") < 0.5:
+            if not is_number(ratio):
+                continue
+            nu = number(ratio)
+            if nu <= -1.0 or nu > 0.5 or (nu == 0.5 and names.explicit):
                 findings.add(line, "material-value", f"Poisson's ratio {ratio}: expected more than -1, less than 0.5")
     if "VISCOELASTIC" in options:
         _check_prony(options["VISCOELASTIC"], findings)
-        if "TRS" in options and not any(
-            one.parameters.get("TYPE") == "TEMPERATURE" for one in deck.named("INITIAL CONDITIONS")
-        ):
+        given = any(one.parameters.get("TYPE") == "TEMPERATURE" for one in deck.named("INITIAL CONDITIONS"))
+        if "TRS" in options and not given and not names.gaps and next(deck.named("TEMPERATURE"), None) is None:
             findings.add(options["TRS"], "no-temperature", "*TRS without *INITIAL CONDITIONS, TYPE=TEMPERATURE")
+
+
+def _unknown(options: dict[str, KeywordBlock]) -> bool:
+    """Whether a material has an option that may be a law of its own (known by name only, or not at all)."""
+    from ...inp.vocabulary import keywords
+
+    known = keywords()
+    return any(word not in known or known[word].open for word in options)
 
 
 def _options(deck: Deck, material: KeywordBlock) -> dict[str, KeywordBlock]:
     """Return the options of a material, by keyword."""
+    from ...inp.vocabulary import keywords
+
+    known = keywords()
     found: dict[str, KeywordBlock] = {}
     start = deck.blocks.index(material)
     for block in deck.blocks[start + 1 :]:
-        known = KEYWORDS.get(block.keyword)
-        if known is None or not known.parents:
+        entry = known.get(block.keyword)
+        if entry is not None and not entry.parents:
             break
         found.setdefault(block.keyword, block)
     return found
@@ -148,14 +229,14 @@ def _check_prony(block: KeywordBlock, findings: Findings) -> None:
     shear = bulk = 0.0
     for line in block.data:
         fields = line.fields
-        if len(fields) != 3 or not all(is_number(text) for text in fields if text):
-            if len(fields) != 3:
+        if not 1 <= len(fields) <= 3 or not all(is_number(text) for text in fields if text):
+            if not 1 <= len(fields) <= 3:
                 findings.add(line, "field-count", f"Prony term: {len(fields)} fields, expected g, k, tau")
             continue
-        g, k, tau = (number(text) if text else 0.0 for text in fields)
+        g, k, tau = (number(text) if text else 0.0 for text in (*fields, "", "")[:3])
         if g < 0.0 or k < 0.0 or tau <= 0.0:
             findings.add(line, "prony", f"Prony term {line.text}: expected g >= 0, k >= 0, tau > 0")
         shear, bulk = shear + g, bulk + k
-    if block.data and (shear >= 1.0 or bulk >= 1.0):
+    if len(block.data) and (shear >= 1.0 or bulk >= 1.0):
         ratio = max(shear, bulk)
         findings.add(block, "prony", f"Prony ratios add up to {ratio:.6g}: expected less than 1, or nothing is left")

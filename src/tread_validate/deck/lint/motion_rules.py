@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 from ...inp import DataLine, Deck, KeywordBlock
+from ...inp.vocabulary import keywords
+from .body_rules import check_rigid_bodies
 from .findings import Findings
 from .names import Names
 from .syntax import is_number, number
+from .table import PROCEDURES
 
 FIXITIES = frozenset({"ENCASTRE", "PINNED", "XSYMM", "YSYMM", "ZSYMM", "XASYMM", "YASYMM", "ZASYMM", "NOWARP"})
 Pairs = list[tuple[float, float]]
@@ -16,10 +20,10 @@ Pairs = list[tuple[float, float]]
 def check_motion(deck: Deck, names: Names, findings: Findings) -> None:
     """Check what moves, and whether ABAQUS would move it as it stands there."""
     amplitudes = {
-        (block.parameters.get("NAME") or "").upper(): _amplitude(block, findings) for block in deck.named("AMPLITUDE")
+        (block.parameters.get("NAME") or ""): _amplitude(block, findings) for block in deck.named("AMPLITUDE")
     }
     smooth = {
-        (block.parameters.get("NAME") or "").upper()
+        (block.parameters.get("NAME") or "")
         for block in deck.named("AMPLITUDE")
         if block.parameters.get("DEFINITION") == "SMOOTH STEP"
     }
@@ -33,10 +37,10 @@ def check_motion(deck: Deck, names: Names, findings: Findings) -> None:
         elif block.keyword == "INITIAL CONDITIONS":
             _check_initial(block, names, findings)
         amplitude = block.parameters.get("AMPLITUDE")
-        if amplitude and block.keyword != "STEP" and not names.has("AMPLITUDE", amplitude):
+        if amplitude and block.keyword not in ("STEP", "AMPLITUDE") and not names.has("AMPLITUDE", amplitude):
             findings.add(block, "dangling-amplitude", f"*{block.keyword}: there is no *AMPLITUDE {amplitude}")
-    _check_rigid_bodies(deck, names, findings)
-    _check_steps(deck, findings)
+    check_rigid_bodies(deck, names, findings)
+    check_steps(deck, findings)
 
 
 def _amplitude(block: KeywordBlock, findings: Findings) -> Pairs:
@@ -70,12 +74,11 @@ def _check_boundary(
         if len(fields) < 2 or fields[1].upper() in FIXITIES:
             continue
         dofs = [text for text in fields[1:3] if text]
-        if not all(text.isdigit() and 1 <= int(text) <= 6 for text in dofs) or (
-            len(dofs) == 2 and int(dofs[1]) < int(dofs[0])
-        ):
-            findings.add(
-                line, "dof", f"*BOUNDARY: degrees of freedom {', '.join(dofs)}: expected 1 to 6, first <= last"
-            )
+        if not _are_freedoms(dofs, names):
+            text = f"*BOUNDARY: degrees of freedom {', '.join(dofs)}: expected 1 to 6, or what the elements have"
+            findings.add(line, "dof", text)
+        if not all(text.isdigit() for text in dofs) or any(int(text) > 6 for text in dofs):
+            continue
         size = fields[3] if len(fields) > 3 else ""
         if size and not is_number(size):
             findings.add(line, "not-a-number", f"*BOUNDARY: {size} is not a number")
@@ -83,7 +86,7 @@ def _check_boundary(
         moves = bool(size) and number(size) != 0.0
         if not (moves and names.explicit and kind == "DISPLACEMENT"):
             continue
-        name = (block.parameters.get("AMPLITUDE") or "").upper()
+        name = block.parameters.get("AMPLITUDE") or ""
         if not inside or not name:
             findings.add(
                 line,
@@ -105,6 +108,16 @@ def _check_boundary(
             )
 
 
+def _are_freedoms(dofs: list[str], names: Names) -> bool:
+    """Whether the fields are a range of degrees of freedom that the deck's elements may have."""
+    if not all(text.isdigit() and 1 <= int(text) <= 30 for text in dofs):
+        return False
+    if len(dofs) == 2 and int(dofs[1]) < int(dofs[0]):
+        return False
+    plain = all(re.fullmatch(r"C3D\d+[RIHM]*|R3D\d|MASS|ROTARYI|S\dR?|M3D\d+R?", part.kind) for part in names.elements)
+    return max(map(int, dofs), default=1) <= 6 or not plain or names.gaps
+
+
 def _has_kinks(pairs: Pairs) -> bool:
     slopes = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in pairwise(pairs)]
     scale = max((abs(slope) for slope in slopes), default=0.0)
@@ -124,113 +137,37 @@ def _check_load(block: KeywordBlock, names: Names, findings: Findings) -> None:
         elif block.keyword == "DLOAD":
             if target and names.elements_of(target) is None:
                 findings.add(line, "dangling-elset", f"*DLOAD: there is no element or element set {target}")
-        elif not names.has("SURFACE", target):
+        elif target and not names.has("SURFACE", target):
             findings.add(line, "dangling-surface", f"*DSLOAD: there is no *SURFACE {target}")
 
 
 def _check_initial(block: KeywordBlock, names: Names, findings: Findings) -> None:
     kind = block.parameters.get("TYPE")
+    if kind == "ROTATING VELOCITY":
+        for line in block.data[::2]:
+            _known_nodes(line, line.fields[0], names, findings)
+        if len(block.data) % 2:
+            findings.add(block.data[-1], "initial-condition", "expected pairs of lines: set, rate, velocity; axis")
     if kind not in ("TEMPERATURE", "VELOCITY"):
         return
-    count = {"TEMPERATURE": 2, "VELOCITY": 3}[kind]
     for line in block.data:
         fields = line.fields
         _known_nodes(line, fields[0], names, findings)
-        if len(fields) != count or not all(is_number(text) for text in fields[1:]):
+        enough = len(fields) == 3 if kind == "VELOCITY" else len(fields) >= 2
+        if not enough or not all(is_number(text) for text in fields[1:] if text):
             form = "node or set, value" if kind == "TEMPERATURE" else "node or set, degree of freedom, value"
             findings.add(line, "initial-condition", f"{line.text[:40]}: expected {form}")
 
 
-def _check_rigid_bodies(deck: Deck, names: Names, findings: Findings) -> None:
-    body_of: dict[int, KeywordBlock] = {}
-    fixed = _prescribed(deck, names)
-    massive = _massive_nodes(deck, names)
-    for block in deck.named("RIGID BODY"):
-        reference = block.parameters.get("REF NODE")
-        node: int | None = None
-        if reference:
-            ids = names.nodes_of(reference)
-            if ids is None:
-                findings.add(block, "dangling-nset", f"*RIGID BODY, REF NODE={reference}: there is no such node or set")
-            elif ids.size != 1:
-                findings.add(block, "reference-node", f"REF NODE={reference} holds {ids.size} nodes, expected one")
-            else:
-                node = int(ids[0])
-        members: list[int] = [] if node is None else [node]
-        for parameter in ("TIE NSET", "PIN NSET"):
-            name = block.parameters.get(parameter)
-            if name and name not in names.nsets:
-                findings.add(block, "dangling-nset", f"*RIGID BODY, {parameter}={name}: there is no such node set")
-            elif name:
-                members += names.nsets[name].tolist()
-        elset = block.parameters.get("ELSET")
-        if elset and elset not in names.elsets:
-            findings.add(block, "dangling-elset", f"*RIGID BODY, ELSET={elset}: there is no such element set")
-        elif elset:
-            for part in names.elements:
-                inside = [index for index, one in enumerate(part.ids.tolist()) if one in set(names.elsets[elset])]
-                members += part.nodes[inside].ravel().tolist()
-        surface = block.parameters.get("ANALYTICAL SURFACE")
-        if surface and not names.has("SURFACE", surface):
-            findings.add(block, "dangling-surface", f"*RIGID BODY: there is no *SURFACE {surface}")
-        for member in dict.fromkeys(members):
-            if member in body_of and body_of[member] is not block:
-                findings.add(
-                    block,
-                    "two-rigid-bodies",
-                    f"node {member} is already in the rigid body of line {body_of[member].line}",
-                )
-                break
-        body_of.update(dict.fromkeys(members, block))
-        held = [one for one in members if one != node and one in fixed]
-        if held:
-            findings.add(
-                fixed[held[0]][min(fixed[held[0]])],
-                "rigid-body-support",
-                f"node {held[0]} follows its rigid body (line {block.line}) and cannot have a *BOUNDARY of its own",
-            )
-        if names.explicit and node is not None and len(set(members)) == 1 and node not in massive:
-            free = [dof for dof in range(1, 7) if dof not in fixed.get(node, {})]
-            if free:
-                listed = ", ".join(map(str, free))
-                findings.add(
-                    block,
-                    "massless-body",
-                    f"massless rigid body: reference node {node} is free in {listed}; prescribe these or add mass",
-                )
-
-
-def _prescribed(deck: Deck, names: Names) -> dict[int, dict[int, DataLine]]:
-    """Return, per node, the prescribed degrees of freedom and the line that does it."""
-    held: dict[int, dict[int, DataLine]] = {}
-    named = {"ENCASTRE": range(1, 7), "PINNED": range(1, 4), "XSYMM": (1, 5, 6), "YSYMM": (2, 4, 6), "ZSYMM": (3, 4, 5)}
-    for block in deck.named("BOUNDARY"):
-        for line in block.data:
-            fields = line.fields
-            ids = names.nodes_of(fields[0])
-            if ids is None or len(fields) < 2:
-                continue
-            dofs = [int(text) for text in fields[1:3] if text.isdigit()]
-            span = range(dofs[0], dofs[-1] + 1) if dofs else named.get(fields[1].upper(), ())
-            for node in ids.tolist():
-                for dof in span:
-                    held.setdefault(node, {}).setdefault(dof, line)
-    return held
-
-
-def _massive_nodes(deck: Deck, names: Names) -> set[int]:
-    """Return the nodes of point masses and of elements with a section."""
-    return {node for part in names.elements for node in part.nodes.ravel().tolist()}
-
-
-def _check_steps(deck: Deck, findings: Findings) -> None:
-    procedures = ("DYNAMIC", "STATIC", "FREQUENCY", "VISCO")
+def check_steps(deck: Deck, findings: Findings) -> None:
+    """Check that every step has a procedure, and an explicit one a duration."""
+    known = keywords("calculix")
     step: KeywordBlock | None = None
     found: KeywordBlock | None = None
     for block in deck.blocks:
         if block.keyword == "STEP":
             step, found = block, None
-        elif block.keyword in procedures:
+        elif block.keyword in PROCEDURES or block.keyword not in known:
             found = block
             if "EXPLICIT" in block.parameters:
                 period = block.data[0].fields[1] if block.data and len(block.data[0].fields) > 1 else ""

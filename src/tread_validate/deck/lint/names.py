@@ -2,61 +2,32 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...inp import DataLine, Deck, KeywordBlock
-from .findings import Findings
-from .syntax import is_number, number
-from .table import ELEMENT_NODES
-
-LONGEST_LABEL = 9  # digits of a node or element number
+from ...inp import DataLine, Deck, KeywordBlock, label
+from ...inp.sets import Sets, is_label, sorted_labels
+from ...inp.table import integer_rows, plain_rows
+from . import elements as kinds
+from .findings import Finding, Findings
+from .spelling import misspelt
+from .syntax import check_lines, is_number, number
 
 IntArray = NDArray[np.int64]
+FloatArray = NDArray[np.float64]
 NO_IDS: IntArray = np.zeros(0, dtype=np.int64)
-
-
-@dataclass(frozen=True)
-class ElementBlock:
-    """The elements of one ``*ELEMENT``: ids (m,), node ids (m, k), and the line of each."""
-
-    block: KeywordBlock
-    kind: str
-    ids: IntArray
-    nodes: IntArray
-    lines: list[DataLine]
-
-
-@dataclass
-class Names:
-    """Definitions of a deck; ids are as written."""
-
-    node_ids: IntArray = field(default_factory=lambda: NO_IDS)
-    coordinates: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 3)))
-    node_set: frozenset[int] = frozenset()
-    elements: list[ElementBlock] = field(default_factory=list)
-    element_set: frozenset[int] = frozenset()
-    nsets: dict[str, IntArray] = field(default_factory=dict)
-    elsets: dict[str, IntArray] = field(default_factory=dict)
-    named: dict[str, dict[str, KeywordBlock]] = field(default_factory=dict)
-    explicit: bool = False
-
-    def has(self, kind: str, name: str) -> bool:
-        """Whether `kind` (``MATERIAL``, ``SURFACE``, ...) has something called `name`."""
-        return name.upper() in self.named.get(kind, {})
-
-    def nodes_of(self, text: str) -> IntArray | None:
-        """Return the node ids of a node number or node set; None where there is no such."""
-        return _members(text, self.nsets, self.node_set)
-
-    def elements_of(self, text: str) -> IntArray | None:
-        """Return the element ids of an element number or element set; None where there is no such."""
-        return _members(text, self.elsets, self.element_set)
-
-
+MOST = 5
+"""Findings of one kind at most in one block of nodes or elements."""
+GENERATORS = {
+    "NGEN": "NSET", "NFILL": "NSET", "NCOPY": "NEW SET", "ELGEN": "ELSET", "ELCOPY": "NEW SET", "NMAP": "NSET",
+    "SYMMETRIC MODEL GENERATION": "", "IMPORT": "", "IMPORT NSET": "", "IMPORT ELSET": "", "MATRIX INPUT": "",
+    "SUBSTRUCTURE PROPERTY": "", "EMBEDDED ELEMENT": "", "ADAPTIVE MESH REFINEMENT": "", "TRACER PARTICLE": "",
+}  # fmt: skip
+"""Keywords that make nodes or elements which the lint does not, and the parameter that names them."""
 NAMED = {
     "MATERIAL": "NAME",
     "AMPLITUDE": "NAME",
@@ -65,157 +36,275 @@ NAMED = {
     "SECTION CONTROLS": "NAME",
     "ORIENTATION": "NAME",
 }
+"""Keywords that define a name, and by which parameter."""
 
 
-def collect(deck: Deck, findings: Findings) -> Names:
+@dataclass(frozen=True)
+class ElementTable:
+    """The elements of one ``*ELEMENT``: ids (m,), node ids (m, k), and the data line of each."""
+
+    block: KeywordBlock
+    kind: str
+    ids: IntArray
+    nodes: IntArray
+    rows: IntArray
+
+    def line(self, row: int) -> DataLine:
+        """Return the line of an element."""
+        return self.block.data[int(self.rows[row])]
+
+
+@dataclass
+class Names:
+    """Definitions of a deck; ids are as in the flat deck, shown by `shown` as they are written."""
+
+    deck: Deck
+    node_ids: IntArray = field(default_factory=lambda: NO_IDS)
+    coordinates: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    elements: list[ElementTable] = field(default_factory=list)
+    sets: Sets = field(default_factory=lambda: Sets(NO_IDS, NO_IDS))
+    named: dict[str, dict[str, KeywordBlock]] = field(default_factory=dict)
+    explicit: bool = False
+    mechanical: bool = False
+    open_mesh: bool = False
+
+    @property
+    def gaps(self) -> bool:
+        """Whether part of the deck is missing, so that any name might be defined there."""
+        return bool(self.deck.gaps)
+
+    @property
+    def nsets(self) -> dict[str, IntArray]:
+        """Node labels of each set."""
+        return self.sets.tables["node"]
+
+    @property
+    def elsets(self) -> dict[str, IntArray]:
+        """Element labels of each set."""
+        return self.sets.tables["element"]
+
+    def has(self, kind: str, name: str) -> bool:
+        """Whether `kind` (``MATERIAL``, ``SURFACE``, ...) has something called `name`."""
+        return self.gaps or label(name) in self.named.get(kind, {}) or name in self.named.get(kind, {})
+
+    def nodes_of(self, text: str) -> IntArray | None:
+        """Return the node ids of a node number or node set; None where there is no such."""
+        found = self.sets.find("node", text)
+        return NO_IDS if found is None and self.gaps else found
+
+    def elements_of(self, text: str) -> IntArray | None:
+        """Return the element ids of an element number or element set; None where there is no such."""
+        found = self.sets.find("element", text)
+        return NO_IDS if found is None and self.gaps else found
+
+    def has_nset(self, name: str) -> bool:
+        """Whether there is a node set of this name (or might be)."""
+        return self.gaps or label(name) in self.nsets or name in self.nsets
+
+    def has_elset(self, name: str) -> bool:
+        """Whether there is an element set of this name (or might be)."""
+        return self.gaps or label(name) in self.elsets or name in self.elsets
+
+    def shown(self, number: int) -> str:
+        """Return a label as it is written in its part."""
+        return self.deck.label_name(int(number))
+
+
+def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
     """Collect the definitions; faults in the definitions themselves are reported on the way."""
-    names = Names(explicit=any("EXPLICIT" in block.parameters for block in deck.named("DYNAMIC")))
+    words = {block.keyword for block in deck.blocks}
+    explicit = any("EXPLICIT" in block.parameters for block in deck.named("DYNAMIC"))
+    names = Names(
+        deck,
+        explicit=(explicit or "DYNAMIC TEMPERATURE-DISPLACEMENT" in words) and dialect == "abaqus",
+        mechanical=bool(words & {"DYNAMIC", "STATIC", "VISCO"}),
+    )
+    made = sorted(words & set(GENERATORS))
+    names.open_mesh = bool(made) or names.gaps
+    if made:
+        first = next(deck.named(*made))
+        findings.add(first, "not-checked", f"*{first.keyword}: nodes and elements it makes are not followed")
     _nodes(deck, names, findings)
     _elements(deck, names, findings)
     for keyword, parameter in NAMED.items():
         table = names.named.setdefault(keyword, {})
         for block in deck.named(keyword):
-            name = (block.parameters.get(parameter) or "").upper()
-            if name in table:
+            name = block.parameters.get(parameter) or ""
+            if name in table and not _may_repeat(block):
                 first = table[name]
                 findings.add(block, "duplicate-name", f"*{keyword} {name} is already defined in line {first.line}")
-            elif name:
-                table[name] = block
+            table.setdefault(name, block)
     pairs = names.named.setdefault("CPSET", {})
     for block in deck.named("CONTACT PAIR"):
         if block.parameters.get("CPSET"):
-            pairs.setdefault(block.value("CPSET").upper(), block)
+            pairs.setdefault(block.value("CPSET"), block)
     _sets(deck, names, findings)
     return names
 
 
+def _may_repeat(block: KeywordBlock) -> bool:
+    """Whether a name may be given again: a surface that is combined or trimmed goes by another rule."""
+    return block.keyword == "SURFACE" and bool({"COMBINE", "CROP", "TRIM"} & set(block.parameters))
+
+
 def _nodes(deck: Deck, names: Names, findings: Findings) -> None:
-    ids: list[int] = []
-    places: list[tuple[float, float, float]] = []
-    seen: dict[int, int] = {}
+    blocks, tables, rows = [], [], []
     for block in deck.named("NODE"):
-        first = len(ids)
-        for line in block.data:
-            fields = line.fields
-            if not fields or not is_label(fields[0]) or not all(is_number(text) for text in fields[1:4] if text):
-                if not fields or not is_label(fields[0]):
-                    findings.add(line, "bad-node", f"*NODE: {line.text[:40]}: expected id, x, y, z")
-                continue
-            node = int(fields[0])
-            if node in seen:
-                findings.add(line, "duplicate-node", f"node {node} is already defined in line {seen[node]}")
-            seen[node] = line.number
-            ids.append(node)
-            xyz = [number(text) if text else 0.0 for text in fields[1:4]]
-            places.append((*xyz, *[0.0] * (3 - len(xyz))))  # type: ignore[arg-type]
-        _into(names.nsets, block.parameters.get("NSET"), ids[first:])
-    names.node_ids = np.array(ids, dtype=np.int64)
-    names.coordinates = np.array(places, dtype=np.float64).reshape(-1, 3)
-    names.node_set = frozenset(ids)
+        table = plain_rows(block.data)
+        if table is None:
+            check_lines(block, findings)
+            table, row = _node_lines(block, findings)
+        else:
+            row = np.arange(table.shape[0], dtype=np.int64)
+        wide = np.zeros((table.shape[0], 4))
+        width = min(4, table.shape[1])
+        wide[:, :width] = table[:, :width]
+        blocks.append(block)
+        tables.append(wide)
+        rows.append(row)
+    if not tables:
+        return
+    whole = np.concatenate(tables)
+    names.node_ids = whole[:, 0].astype(np.int64)
+    names.coordinates = whole[:, 1:]
+    starts = np.cumsum([0, *(table.shape[0] for table in tables)]).tolist()
+
+    def line(index: int) -> DataLine:
+        which = bisect_right(starts, index) - 1
+        return blocks[which].data[int(rows[which][index - starts[which]])]
+
+    for first, second in _repeated(names.node_ids)[:MOST]:
+        same = names.shown(int(names.node_ids[second]))
+        text = f"node {same} is already defined in line {line(first).number}"
+        findings.add(line(second), "duplicate-node", text)
+
+
+def _repeated(ids: IntArray) -> list[tuple[int, int]]:
+    """Return (first place, later place) of every label that comes again."""
+    order = np.argsort(ids, kind="stable")
+    again = np.flatnonzero(np.diff(ids[order]) == 0)
+    return [(int(order[i]), int(order[i + 1])) for i in again]
+
+
+def _node_lines(block: KeywordBlock, findings: Findings) -> tuple[FloatArray, IntArray]:
+    """Read node lines one at a time; what is none is reported and left out."""
+    places, rows = [], []
+    for row, line in enumerate(block.data):
+        fields = line.fields
+        if not fields or not is_label(fields[0]):
+            findings.add(line, "bad-node", f"*NODE: {line.text[:40]}: expected id, x, y, z")
+            continue
+        numbers = [number(text) if is_number(text) else 0.0 for text in fields[1:4]]
+        places.append([float(fields[0]), *numbers, *[0.0] * (3 - len(numbers))])
+        rows.append(row)
+    return np.array(places, dtype=np.float64).reshape(-1, 4), np.array(rows, dtype=np.int64)
 
 
 def _elements(deck: Deck, names: Names, findings: Findings) -> None:
-    seen: dict[int, int] = {}
     for block in deck.named("ELEMENT"):
-        kind = block.parameters.get("TYPE") or ""
-        if kind not in ELEMENT_NODES:
-            findings.add(block, "element-type", f"*ELEMENT, TYPE={kind}: not an element type this lint knows")
-            _into(names.elsets, block.parameters.get("ELSET"), _first_ids(block.data))
-            continue
-        count = ELEMENT_NODES[kind] + 1
-        rows: list[list[int]] = []
-        lines: list[DataLine] = []
-        pending: list[int] = []
-        for line in block.data:
-            if not all(is_label(text) for text in line.fields):
-                findings.add(
-                    line, "bad-element", f"*ELEMENT: {line.text[:40]}: expected whole numbers of up to 9 digits"
-                )
-                pending = []
-                continue
-            if not pending:
-                lines.append(line)
-            pending += [int(text) for text in line.fields]
-            if len(pending) < count and line.text.endswith(","):
-                continue  # long elements go on in the next line
-            if len(pending) != count:
-                findings.add(
-                    lines.pop(), "element-nodes", f"{kind} has {count - 1} nodes, this line gives {len(pending) - 1}"
-                )
+        kind = (block.parameters.get("TYPE") or "").upper()
+        count = kinds.node_count(kind)
+        if not kinds.is_known(kind):
+            near = misspelt(kind, kinds.EXAMPLES)
+            if near is not None:
+                findings.add(block, "element-type", f"*ELEMENT, TYPE={kind}: no such type; did you mean {near}?")
             else:
-                rows.append(pending)
+                findings.add(block, "not-checked", f"*ELEMENT, TYPE={kind}: elements of this type are not checked")
+        if count is None:
+            first = [line.fields[0] for line in block.data if line.fields and is_label(line.fields[0])]
+            ids = np.array(list(map(int, first)), dtype=np.int64)
+            names.elements.append(ElementTable(block, kind, ids, np.zeros((ids.size, 0), dtype=np.int64), _range(ids)))
+            continue
+        table = integer_rows(block.data, count + 1)
+        rows = np.arange(len(block.data), dtype=np.int64)
+        if table is None:
+            check_lines(block, findings)
+            table, rows = _element_lines(block, kind, count + 1, findings)
+        names.elements.append(ElementTable(block, kind, table[:, 0], table[:, 1:], rows))
+    _check_repeated_elements(names, findings)
+
+
+def _range(ids: IntArray) -> IntArray:
+    return np.arange(ids.size, dtype=np.int64)
+
+
+def _check_repeated_elements(names: Names, findings: Findings) -> None:
+    counted = [part for part in names.elements if part.nodes.shape[1]]
+    if not counted:
+        return
+    starts = np.cumsum([0, *(part.ids.size for part in counted)]).tolist()
+
+    def line(index: int) -> DataLine:
+        which = bisect_right(starts, index) - 1
+        return counted[which].line(index - starts[which])
+
+    ids = np.concatenate([part.ids for part in counted])
+    for first, second in _repeated(ids)[:MOST]:
+        text = f"element {names.shown(int(ids[second]))} is already defined in line {line(first).number}"
+        findings.add(line(second), "duplicate-element", text)
+
+
+def _element_lines(block: KeywordBlock, kind: str, count: int, findings: Findings) -> tuple[IntArray, IntArray]:
+    """Read element lines one at a time, joining those that go on after a comma."""
+    table: list[list[int]] = []
+    rows: list[int] = []
+    pending: list[int] = []
+    start = 0
+    for row, line in enumerate(block.data):
+        fields = [text for text in line.fields if text]
+        if not all(is_label(text) for text in fields):
+            findings.add(line, "bad-element", f"*ELEMENT: {line.text[:40]}: expected whole numbers of up to 9 digits")
             pending = []
-        table = np.array(rows, dtype=np.int64).reshape(-1, count)
-        for row, line in zip(rows, lines, strict=False):
-            if row[0] in seen:
-                findings.add(line, "duplicate-element", f"element {row[0]} is already defined in line {seen[row[0]]}")
-            seen[row[0]] = line.number
-        names.elements.append(ElementBlock(block, kind, table[:, 0], table[:, 1:], lines))
-        _into(names.elsets, block.parameters.get("ELSET"), table[:, 0].tolist())
-    names.element_set = frozenset(seen)
-
-
-def _first_ids(lines: Iterable[DataLine]) -> list[int]:
-    return [int(text) for text in (line.fields[0] for line in lines if line.fields) if is_label(text)]
+            continue
+        start = start if pending else row
+        pending += map(int, fields)
+        if len(pending) < count and line.text.endswith(","):
+            continue
+        if len(pending) == count:
+            table.append(pending)
+            rows.append(start)
+        else:
+            text = f"{kind} has {count - 1} nodes, this line gives {len(pending) - 1}"
+            findings.add(block.data[start], "element-nodes", text)
+        pending = []
+    return np.array(table, dtype=np.int64).reshape(-1, count), np.array(rows, dtype=np.int64)
 
 
 def _sets(deck: Deck, names: Names, findings: Findings) -> None:
-    """Build *NSET and *ELSET in the order of the deck."""
-    for block in deck.named("NSET", "ELSET"):
-        of_nodes = block.keyword == "NSET"
-        table = names.nsets if of_nodes else names.elsets
-        known = names.node_set if of_nodes else names.element_set
-        what = "node" if of_nodes else "element"
-        members: list[int] = []
-        for line in block.data:
-            if "GENERATE" in block.parameters:
-                members += _generated(line, known, what, findings)
-                continue
-            for text in line.fields:
-                ids = _members(text, table, known)
-                if ids is None:
-                    findings.add(
-                        line, f"dangling-{block.keyword.lower()}", f"*{block.keyword}: there is no {what} or set {text}"
-                    )
-                else:
-                    members += ids.tolist()
-        elset = block.parameters.get("ELSET") if of_nodes else None
-        if elset:
-            if elset in names.elsets:
-                inside = names.elsets[elset]
-                for part in names.elements:
-                    members += part.nodes[np.isin(part.ids, inside)].ravel().tolist()
-            else:
-                findings.add(block, "dangling-elset", f"*NSET, ELSET={elset}: there is no such element set")
-        _into(table, block.parameters.get(block.keyword), members)
+    """Build the sets in the order of the deck, through the reading that the engines use."""
+    ids = np.concatenate([part.ids for part in names.elements]) if names.elements else NO_IDS
+
+    def nodes_of(members: IntArray) -> IntArray:
+        parts = [part.nodes[np.isin(part.ids, members)].ravel() for part in names.elements]
+        return sorted_labels(np.concatenate(parts)) if parts else NO_IDS
+
+    def report(rule: str, where: str, found: object, expected: str) -> None:
+        findings.at(where, rule, found, expected)
+
+    names.sets = Sets(names.node_ids, ids, nodes_of, report, names.open_mesh)
+    for block in deck.blocks:
+        if block.keyword == "NODE" and block.parameters.get("NSET"):
+            names.sets.extend("node", block.parameters["NSET"], _first_labels(block.data))
+        elif block.keyword in GENERATORS:
+            what = "element" if GENERATORS[block.keyword] == "ELSET" or block.keyword == "ELCOPY" else "node"
+            name = block.parameters.get(GENERATORS[block.keyword])
+            if name:
+                names.sets.extend(what, label(name), NO_IDS)
+    for part in names.elements:
+        names.sets.extend("element", part.block.parameters.get("ELSET"), part.ids)
+    names.sets.read(deck.blocks)
 
 
-def _generated(line: DataLine, known: frozenset[int], what: str, findings: Findings) -> list[int]:
-    fields = line.fields
-    if not 2 <= len(fields) <= 3 or not all(text.isdigit() for text in fields):
-        findings.add(line, "field-count", f"GENERATE: {line.text[:40]}: expected first, last, step")
-        return []
-    first, last, step = int(fields[0]), int(fields[1]), int(fields[2]) if len(fields) == 3 else 1
-    if step < 1 or last < first:
-        findings.add(line, "field-count", f"GENERATE: {line.text[:40]}: expected first <= last and step >= 1")
-        return []
-    ids = sorted(label for label in known if first <= label <= last and (label - first) % step == 0)
-    if not ids:
-        findings.add(line, f"undefined-{what}", f"GENERATE: no {what} from {first} to {last}")
-    return ids
+def _first_labels(lines: Iterable[DataLine]) -> IntArray:
+    texts = getattr(lines, "texts", [])
+    found = [head for text in texts if is_label(head := text.split(",", 1)[0].strip())]
+    return np.array(list(map(int, found)), dtype=np.int64)
 
 
-def is_label(text: str) -> bool:
-    """Whether a field is a node or element number."""
-    return text.isdigit() and len(text) <= LONGEST_LABEL
-
-
-def _into(table: dict[str, IntArray], name: str | None, ids: list[int]) -> None:
-    if name:
-        table[name.upper()] = np.union1d(table.get(name.upper(), NO_IDS), np.array(ids, dtype=np.int64))
-
-
-def _members(text: str, table: dict[str, IntArray], known: frozenset[int]) -> IntArray | None:
-    if is_label(text):
-        return np.array([int(text)], dtype=np.int64) if int(text) in known else None
-    return table.get(text.strip('"').upper())
+def unique(findings: Iterable[Finding]) -> list[Finding]:
+    """Return the findings in order; what holds alike for each instance of a part is said once."""
+    seen: dict[tuple[str, int, str, str], Finding] = {}
+    for finding in findings:
+        bare = "".join(letter for letter in finding.message if not letter.isdigit())
+        seen.setdefault((finding.file, finding.line, finding.rule, bare), finding)
+    return sorted(seen.values())

@@ -1,55 +1,96 @@
-"""Form of a deck: keywords, parameters, places and data lines against the table."""
+"""Form of a deck: keywords, parameters, places and data lines against the vocabulary."""
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from ...inp import DataLine, Deck, KeywordBlock
+from ...inp import DataLine, Deck, KeywordBlock, Lines
+from ...inp.deck import to_float
+from ...inp.table import all_numbers
+from ...inp.vocabulary import Keyword, keywords
 from .findings import Findings
-from .table import KEYWORDS, Keyword
+from .spelling import misspelt
+
+LONGEST_LINE = 256
+MODEL_ONLY = frozenset({
+    "HEADING", "PART", "INSTANCE", "ASSEMBLY", "NODE", "ELEMENT", "MATERIAL", "DENSITY", "ELASTIC", "HYPERELASTIC",
+    "VISCOELASTIC", "TRS", "SOLID SECTION", "SHELL SECTION", "MEMBRANE SECTION", "SECTION CONTROLS", "RIGID BODY",
+    "INITIAL CONDITIONS", "EQUATION", "TIE",
+})  # fmt: skip
+"""Keywords that certainly stand before the first step."""
+STEP_ONLY = frozenset({
+    "DYNAMIC", "STATIC", "VISCO", "BULK VISCOSITY", "CLOAD", "DLOAD", "DSLOAD", "OUTPUT", "NODE OUTPUT",
+    "ELEMENT OUTPUT", "CONTACT OUTPUT", "ENERGY OUTPUT", "END STEP",
+})  # fmt: skip
+"""Keywords that certainly stand inside a step."""
+STRICT_FORM = frozenset({
+    "NODE", "ELEMENT", "NSET", "ELSET", "DENSITY", "ELASTIC", "TRS", "BOUNDARY", "CLOAD", "BULK VISCOSITY", "AMPLITUDE",
+    "STEP", "END STEP", "FRICTION", "VISCOELASTIC", "PART", "END PART",
+})  # fmt: skip
+"""Keywords whose count of lines and fields is certain; that of others is a warning."""
+CALCULIX_FREE = frozenset({"CONTACT PAIR", "NODE FILE", "EL FILE", "NODE PRINT", "EL PRINT"})
 
 
-def check_syntax(deck: Deck, findings: Findings) -> None:
+def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> None:
     """Check every keyword block by itself and its place in the deck."""
+    vocabulary = keywords(dialect)
     inside = False
     steps = 0
     opened: KeywordBlock | None = None
-    for position, block in enumerate(deck.blocks):
+    for position, block in enumerate(deck.written):
         if block.keyword == "STEP":
             if inside:
                 findings.add(block, "step-order", "a *STEP inside a step: *END STEP is missing before it")
             inside, opened = True, block
             steps += 1
-        known = KEYWORDS.get(block.keyword)
+        known = vocabulary.get(block.keyword)
         if known is None:
-            near = difflib.get_close_matches(block.keyword, KEYWORDS, 1)
-            hint = f"; did you mean *{near[0]}?" if near else ""
-            findings.add(block, "unknown-keyword", f"*{block.keyword} is not a keyword this lint knows{hint}")
+            _unknown(block, vocabulary, findings, dialect)
         else:
-            _check_block(deck.blocks, position, known, inside, steps, findings)
+            _check_place(block, inside, steps, findings, dialect)
+            _check_block(deck.written, position, known, vocabulary, findings)
+        _check_letters(block, findings)
         if block.keyword == "END STEP":
             if not inside:
                 findings.add(block, "step-order", "*END STEP without a *STEP")
             inside = False
     if inside and opened is not None:
         findings.add(opened, "step-order", "this *STEP has no *END STEP")
-    if deck.blocks and steps == 0:
-        findings.add(deck.blocks[-1], "no-step", "the deck has no *STEP", "warning")
+    if deck.written and steps == 0:
+        findings.add(deck.written[-1], "no-step", "the deck has no *STEP")
+
+
+def _unknown(block: KeywordBlock, vocabulary: Mapping[str, Keyword], findings: Findings, dialect: str) -> None:
+    near = misspelt(block.keyword, vocabulary)
+    if near is not None:
+        findings.add(block, "unknown-keyword", f"*{block.keyword} is no keyword; did you mean *{near}?")
+    elif dialect == "abaqus" and block.keyword in keywords("calculix"):
+        findings.add(block, "not-checked", f"*{block.keyword} is a keyword of CalculiX: --dialect calculix")
+    else:
+        findings.add(block, "not-checked", f"*{block.keyword} is not in the lint's vocabulary: not checked")
+
+
+def _check_place(block: KeywordBlock, inside: bool, steps: int, findings: Findings, dialect: str) -> None:
+    if block.keyword in MODEL_ONLY and (inside or steps) and dialect == "abaqus":
+        findings.add(block, "wrong-place", f"*{block.keyword} is model data and stands before the first *STEP")
+    if block.keyword in STEP_ONLY and not inside and block.keyword != "END STEP":
+        findings.add(block, "wrong-place", f"*{block.keyword} is history data and stands inside a *STEP")
 
 
 def _check_block(
-    blocks: Sequence[KeywordBlock], position: int, known: Keyword, inside: bool, steps: int, findings: Findings
+    blocks: Sequence[KeywordBlock],
+    position: int,
+    known: Keyword,
+    vocabulary: Mapping[str, Keyword],
+    findings: Findings,
 ) -> None:
     block = blocks[position]
-    if known.place == "model" and (inside or steps):
-        findings.add(block, "wrong-place", f"*{block.keyword} is model data and stands before the first *STEP")
-    if known.place == "step" and not inside:
-        findings.add(block, "wrong-place", f"*{block.keyword} is history data and stands inside a *STEP")
-    if not known.open:
-        _check_parameters(block, known, findings)
-    _check_data(block, known, findings)
-    if known.parents and not _has_parent(blocks, position, known.parents):
+    if known.open:
+        return
+    _check_parameters(block, known, findings)
+    if block.keyword not in ("NODE", "ELEMENT"):  # the mesh is read in bulk; see `check_lines`
+        _check_data(block, known, findings)
+    if known.parents and not _has_parent(blocks, position, known.parents, vocabulary):
         findings.add(block, "wrong-place", f"*{block.keyword} belongs below *{' or *'.join(known.parents)}")
 
 
@@ -57,31 +98,45 @@ def _check_parameters(block: KeywordBlock, known: Keyword, findings: Findings) -
     allowed = known.required | known.optional
     for name, value in block.parameters.items():
         if name not in allowed:
-            near = difflib.get_close_matches(name, allowed, 1)
-            hint = f"; did you mean {near[0]}?" if near else ""
-            findings.add(block, "unknown-parameter", f"*{block.keyword} has no parameter {name}{hint}")
-        elif known.values_of(name) and value is not None and value not in known.values_of(name):
+            near = misspelt(name, allowed)
+            if near is not None:
+                findings.add(block, "unknown-parameter", f"*{block.keyword} has no {name}; did you mean {near}?")
+            else:
+                findings.add(block, "not-checked", f"*{block.keyword}, {name}: a parameter the lint does not know")
+        elif value is not None and known.values_of(name) and value not in known.values_of(name):
             expected = ", ".join(known.values_of(name))
             findings.add(block, "parameter-value", f"*{block.keyword}, {name}={value}: expected one of {expected}")
     for name in sorted(known.required - set(block.parameters)):
         findings.add(block, "missing-parameter", f"*{block.keyword} needs {name}=")
 
 
+def check_lines(block: KeywordBlock, findings: Findings) -> None:
+    """Check the data lines of a block by themselves: for nodes and elements that are no plain table."""
+    known = keywords().get(block.keyword)
+    if known is not None:
+        _check_data(block, known, findings)
+
+
 def _check_data(block: KeywordBlock, known: Keyword, findings: Findings) -> None:
     least, most = known.lines
+    severity = None if block.keyword in STRICT_FORM else "warning"
     if len(block.data) < least and "INPUT" not in block.parameters:
-        findings.add(block, "data-lines", f"*{block.keyword}: {len(block.data)} data lines, expected at least {least}")
+        text = f"*{block.keyword}: {len(block.data)} data lines, expected at least {least}"
+        findings.add(block, "data-lines", text, severity)  # type: ignore[arg-type]
     if 0 <= most < len(block.data):
-        findings.add(block.data[most], "data-lines", f"*{block.keyword}: more data lines than the {most} it may have")
-    for line in block.data if most < 0 else block.data[:most]:
-        if len(line.text) > 256:
-            findings.add(line, "line-length", f"{len(line.text)} characters, at most 256")
+        text = f"*{block.keyword}: more data lines than the {most} it may have"
+        findings.add(block.data[most], "data-lines", text, severity)  # type: ignore[arg-type]
+    data = block.data if most < 0 else block.data[:most]
+    if known.numeric and known.fields is not None and all_numbers(data, *known.fields):
+        return
+    for line in data:
         if known.fields is not None:
             count = len(line.fields)
             low, high = known.fields
             if not low <= count <= high:
                 expected = str(low) if low == high else f"{low} to {high}"
-                findings.add(line, "field-count", f"*{block.keyword}: {count} fields, expected {expected}")
+                text = f"*{block.keyword}: {count} fields, expected {expected}"
+                findings.add(line, "field-count", text, severity)  # type: ignore[arg-type]
         if known.numeric:
             _check_numbers(block, line, findings)
 
@@ -93,10 +148,25 @@ def _check_numbers(block: KeywordBlock, line: DataLine, findings: Findings) -> N
             return
 
 
+def _check_letters(block: KeywordBlock, findings: Findings) -> None:
+    """Check line lengths and letters, once a block."""
+    data: Lines = block.data
+    if max(map(len, data.texts), default=0) > LONGEST_LINE:
+        line = next(line for line in data if len(line.text) > LONGEST_LINE)
+        findings.add(line, "line-length", f"{len(line.text)} characters, at most {LONGEST_LINE}")
+    if block.keyword == "HEADING":
+        return
+    if not all(map(str.isascii, data.texts)):
+        line = next(line for line in data if not line.text.isascii())
+        findings.add(line, "non-ascii", f"*{block.keyword}: {line.text[:40]!a}")
+    elif not block.text.isascii():
+        findings.add(block, "non-ascii", ascii(block.text[:60]))
+
+
 def is_number(text: str) -> bool:
     """Whether a field is a finite number in the language's form (Fortran exponents allowed)."""
     try:
-        value = number(text)
+        value = to_float(text)
     except ValueError:
         return False
     return abs(value) < float("inf")
@@ -104,15 +174,19 @@ def is_number(text: str) -> bool:
 
 def number(text: str) -> float:
     """Return a field as a number; Fortran's exponent letter D is one of the language's forms."""
-    return float(text.upper().replace("D", "E"))
+    return to_float(text)
 
 
-def _has_parent(blocks: Sequence[KeywordBlock], position: int, parents: tuple[str, ...]) -> bool:
-    """Whether one of `parents` precedes with nothing but options in between."""
+def _has_parent(
+    blocks: Sequence[KeywordBlock], position: int, parents: tuple[str, ...], vocabulary: Mapping[str, Keyword]
+) -> bool:
+    """Whether one of `parents` precedes with nothing but options in between; what is not known might be one."""
     for block in reversed(blocks[:position]):
         if block.keyword in parents:
             return True
-        known = KEYWORDS.get(block.keyword)
-        if known is not None and not known.parents:
+        known = vocabulary.get(block.keyword)
+        if known is None or (known.open and not known.parents):
+            return True
+        if not known.parents and block.keyword not in ("INCLUDE", "PARAMETER"):
             return False
     return False
