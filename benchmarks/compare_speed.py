@@ -38,7 +38,7 @@ def main() -> None:
         for case_id, history in histories.items():
             history.write_csv(place / "spring" / "paper" / f"{case_id}.csv")
         started = time.perf_counter()
-        found = compare_study(study, place / "spring", ROOT / "reference_data", ROOT / "fe_inputs")
+        found = compare_study(study, place / "spring", ROOT / "reference_data", ROOT / "fe_inputs" / "liu2010")
         write_tables(found, ROOT / "reference_data", place / "tables")
         print(f"all tables of the study: {time.perf_counter() - started:.2f} s")
 

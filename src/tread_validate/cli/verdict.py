@@ -29,9 +29,12 @@ def command(
 
     Example: tread-validate verdict config/study.yaml --gate
     """
+    import json
+
     from ..compare.binding import todays_tables
     from ..compare.told import tell
     from ..errors import CheckFailedError, EngineError
+    from ..files import write_text
     from ..report.landing import write_landing
     from ..study import load_study
     from ..workspace import Workspace
@@ -41,12 +44,13 @@ def command(
     own = reports / loaded.model.name
     todays_tables(folder, loaded)
     told = tell(folder, own / "baseline")
-    for line in told.lines:
+    write_text(folder / "summary.json", json.dumps({"study": loaded.model.name, **told.as_dict()}, indent=2) + "\n")
+    for line in told.lines():
         typer.echo(line)
     if (own / "index.html").is_file():
-        write_landing(reports, own, loaded.model.title, told.lines)
+        write_landing(reports, own, loaded.model.title, told.lines())
         typer.echo(f"page: {own / 'index.html'} (and report.pdf)")
     if gate and not told.compared:
         raise EngineError("nothing could be compared")
     if gate and told.moved:
-        raise CheckFailedError(told.lines[-1])
+        raise CheckFailedError(told.baseline)

@@ -3,92 +3,124 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from .baseline.delta import check_tables
 from .baseline.store import load_baseline, same_study
-from .tables import Ensemble, MetricRow, PeakRow, read_rows
+from .tables import MetricRow, PeakRow, read_rows
 
-HEADLINE = "peak_normal_force"
-MOST_LINES = 6
-STATES = ("current", "other_code", "stale", "missing", "corrupt", "unbound", "no_contact", "failed")
+MOST_LINES = 5
+NOTHING = "Nothing could be compared: no run of any model has a reference of the same problem."
+
+
+@dataclass(frozen=True)
+class ModelTold:
+    """How one model does against one reference in the peak normal force.
+
+    Attributes
+    ----------
+    model, reference : str
+        Sources; the reference is empty where there was nothing to compare with.
+    error : float or None
+        Mean of the relative errors' sizes.
+    verdicts : mapping of str to int
+        Cases by verdict.
+    """
+
+    model: str
+    reference: str = ""
+    error: float | None = None
+    verdicts: Mapping[str, int] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        """Say it in one line."""
+        if not self.reference:
+            return f"{self.model}: nothing to compare with"
+        error = "no peak N" if self.error is None else f"mean |error| of peak N {100 * self.error:.1f} %"
+        verdicts = ", ".join(f"{verdict} in {count}" for verdict, count in sorted(self.verdicts.items()))
+        return f"{self.model} against {self.reference}: {error}; of {sum(self.verdicts.values())} cases {verdicts}"
 
 
 @dataclass(frozen=True)
 class Told:
-    """The lines, and what they mean for an exit code.
+    """What the tables come to.
 
     Attributes
     ----------
-    lines : tuple of str
-        At most six, the page left out.
+    references : mapping of str to mapping of str to int
+        Runs of every engine by status.
+    models : tuple of ModelTold
     compared : bool
         Whether any run had a reference to be compared with.
-    moved : bool
-        Whether anything moved since the baseline or a verdict flipped.
+    moved : bool or None
+        Whether anything moved since the baseline or a verdict flipped; None without a baseline.
+    baseline : str
+        The same in words.
     """
 
-    lines: tuple[str, ...]
+    references: Mapping[str, Mapping[str, int]]
+    models: tuple[ModelTold, ...]
     compared: bool
-    moved: bool
+    moved: bool | None
+    baseline: str
+
+    def lines(self) -> tuple[str, ...]:
+        """Return at most five lines: what could not be compared first, references, models, baseline."""
+        found = [] if self.compared else [NOTHING]
+        found.append(self._references())
+        room = MOST_LINES - len(found) - 1
+        told = [str(model) for model in self.models]
+        if len(told) > room:
+            told = [*told[: room - 1], f"and {len(told) - room + 1} more models: see the page"]
+        return (*found, *told, self.baseline)
+
+    def _references(self) -> str:
+        parts = []
+        for engine, counts in self.references.items():
+            shown = {"current": 0, **counts}
+            parts.append(f"{engine} " + ", ".join(f"{n} {state.replace('_', ' ')}" for state, n in shown.items()))
+        wanting = any(set(counts) - {"current", "no_contact"} for counts in self.references.values())
+        return f"references: {'; '.join(parts) or 'none'}" + (" (make reference)" if wanting else "")
+
+    def as_dict(self) -> dict[str, object]:
+        """Return all of it for a JSON file."""
+        return {**asdict(self), "lines": list(self.lines())}
 
 
 def tell(tables: Path, baseline: Path) -> Told:
     """Read the tables and say what they come to; raises `InputError` for tables or a baseline that cannot be read."""
     peaks = read_rows(tables / "peaks.csv", PeakRow)
     errors = read_rows(tables / "errors.csv", MetricRow)
-    ensembles = read_rows(tables / "ensemble.csv", Ensemble)
+    references: dict[str, dict[str, int]] = {}
+    for row in peaks:
+        if row.source.startswith("fe:"):
+            counts = references.setdefault(row.source.removeprefix("fe:"), {})
+            counts[row.status] = counts.get(row.status, 0) + 1
+    models = dict.fromkeys(row.predicted_source for row in errors if not row.predicted_source.startswith("fe:"))
     compared = any(row.error is not None for row in errors)
-    lines = [] if compared else ["Nothing could be compared: no run of any model has a reference of the same problem."]
-    lines += _references(peaks)
-    models = list(dict.fromkeys(row.predicted_source for row in errors if not row.predicted_source.startswith("fe:")))
-    told = [_model(source, errors, ensembles) for source in models]
-    room = MOST_LINES - 2 - len(lines)
-    if len(told) > room:
-        told = [*told[: room - 1], f"and {len(told) - room + 1} more models: see the page"]
-    moved, line = _baseline(tables, baseline)
-    return Told((*lines, *told, line), compared, moved)
+    return Told(references, tuple(_model(model, errors) for model in models), compared, *_baseline(tables, baseline))
 
 
-def _references(peaks: Sequence[PeakRow]) -> list[str]:
-    parts = []
-    for source in dict.fromkeys(row.source for row in peaks if row.source.startswith("fe:")):
-        counts = Counter(row.status for row in peaks if row.source == source)
-        states = [
-            f"{counts[state]} {state.replace('_', ' ')}" for state in STATES if counts[state] or state == "current"
-        ]
-        parts.append(f"{source.removeprefix('fe:')} {', '.join(states)}")
-    return [f"references: {'; '.join(parts) or 'none'}" + (" (make reference)" if _wanting(peaks) else "")]
-
-
-def _wanting(peaks: Sequence[PeakRow]) -> bool:
-    return any(row.status not in ("current", "no_contact") for row in peaks if row.source.startswith("fe:"))
-
-
-def _model(source: str, errors: Sequence[MetricRow], ensembles: Sequence[Ensemble]) -> str:
-    """Say one model's headline error and how its verdicts stand, against the first reference that has any."""
-    for reference in dict.fromkeys(row.reference_source for row in errors if row.predicted_source == source):
-        own = [
+def _model(model: str, errors: Sequence[MetricRow]) -> ModelTold:
+    """Sum up one model against the first reference that has anything to compare with."""
+    own = [row for row in errors if row.predicted_source == model and row.error is not None]
+    for reference in dict.fromkeys(row.reference_source for row in own):
+        head = [
             row
-            for row in errors
-            if (row.predicted_source, row.reference_source) == (source, reference) and row.error is not None
+            for row in own
+            if (row.reference_source, row.quantity, row.metric) == (reference, "peak_normal_force", "scalar")
         ]
-        if not own:
-            continue
-        head = [row for row in own if (row.quantity, row.metric) == (HEADLINE, "scalar")]
         sizes = [abs(row.error) for row in head if row.error is not None]
-        mean = f"mean |error| of peak N {100 * sum(sizes) / len(sizes):.1f} %" if sizes else "no peak N"
-        counts = Counter(row.verdict for row in head)
-        verdicts = ", ".join(f"{verdict} in {count}" for verdict, count in sorted(counts.items()))
-        return f"{source} against {reference}: {mean} over {len(head)} cases; {verdicts}"
-    return f"{source}: nothing to compare with"
+        mean = sum(sizes) / len(sizes) if sizes else None
+        return ModelTold(model, reference, mean, dict(Counter(str(row.verdict) for row in head)))
+    return ModelTold(model)
 
 
-def _baseline(tables: Path, baseline: Path) -> tuple[bool, str]:
+def _baseline(tables: Path, baseline: Path) -> tuple[bool | None, str]:
     if not (baseline / "baseline.yaml").is_file():
-        return False, "baseline: none accepted yet (tread-validate accept)"
+        return None, "baseline: none accepted yet (tread-validate accept)"
     accepted = load_baseline(baseline)
     same_study(accepted, tables)
     found = check_tables(accepted, tables)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..compare.rig_peaks import rig_peaks
+from ..compare.told import NOTHING
 from ..files import write_text
 from ..palette import looks
 from ..study import load_study
@@ -138,7 +139,7 @@ def compose(study_path: Path, places: Places) -> Report:
     return Report(
         title="Tread-block validation report",
         subtitle=study.model.title,
-        lead=(*LEAD, CAVEAT),
+        lead=(*(() if any(row.error is not None for row in tables.errors) else (NOTHING,)), *LEAD, CAVEAT),
         notes=study.model.notes,
         sections=tuple(section for section in sections if section is not None and section.items),
         stamp=stamp(tables),
