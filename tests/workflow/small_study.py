@@ -49,7 +49,8 @@ class Small:
         )
 
     def snakemake(self, *arguments: str, study: str = "config/study.yaml") -> subprocess.CompletedProcess[str]:
-        return self.run("snakemake", "--cores", "2", "--show-failed-logs", "--config", f"study={study}", "--", *arguments)
+        options = ("--cores", "2", "--show-failed-logs", "--config", f"study={study}", "--")
+        return self.run("snakemake", *options, *arguments)
 
     def verdict(self, study: str = "config/study.yaml") -> subprocess.CompletedProcess[str]:
         return self.run("tread-validate", "verdict", study, "--gate")

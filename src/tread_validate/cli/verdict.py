@@ -29,12 +29,9 @@ def command(
 
     Example: tread-validate verdict config/study.yaml --gate
     """
-    import json
-
     from ..compare.binding import todays_tables
     from ..compare.told import tell
     from ..errors import CheckFailedError, EngineError
-    from ..files import write_text
     from ..report.landing import write_landing
     from ..study import load_study
     from ..workspace import Workspace
@@ -44,7 +41,6 @@ def command(
     own = reports / loaded.model.name
     todays_tables(folder, loaded)
     told = tell(folder, own / "baseline")
-    write_text(folder / "summary.json", json.dumps({"study": loaded.model.name, **told.as_dict()}, indent=2) + "\n")
     for line in told.lines():
         typer.echo(line)
     if (own / "index.html").is_file():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from .baseline.delta import check_tables
@@ -83,10 +83,6 @@ class Told:
             parts.append(f"{engine} " + ", ".join(f"{n} {state.replace('_', ' ')}" for state, n in shown.items()))
         wanting = any(set(counts) - {"current", "no_contact"} for counts in self.references.values())
         return f"references: {'; '.join(parts) or 'none'}" + (" (make reference)" if wanting else "")
-
-    def as_dict(self) -> dict[str, object]:
-        """Return all of it for a JSON file."""
-        return {**asdict(self), "lines": list(self.lines())}
 
 
 def tell(tables: Path, baseline: Path) -> Told:
