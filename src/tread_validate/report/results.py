@@ -92,13 +92,20 @@ def _ensemble_row(row: Ensemble, marks: Marks, headline: bool) -> Row:
         value_cell(row.mean_abs_error, show(row.mean_abs_error)),
         value_cell(row.largest_abs_error, show(row.largest_abs_error), note=row.largest_case_id),
         value_cell(row.bias, wording.digits(row.bias)),
-        value_cell(row.model_scatter, wording.percent(row.model_scatter)),
+        value_cell(row.model_scatter, _scatter(row)),
         value_cell(row.passed, f"{row.passed}" if row.compared else "–"),
     ]
     if not headline:
         cells.insert(1, Cell(wording.group(row.group)))
     pair = f"{wording.source(row.predicted_source)} against {wording.source(row.reference_source)}"
     return Row(tuple(cells), marks.of(row.assumed), group=pair)
+
+
+def _scatter(row: Ensemble) -> str:
+    """Write the model's own scatter; where it is less than the reference's there is nothing of its own to be seen."""
+    if row.model_scatter == 0.0 and row.total_scatter and row.reference_scatter:
+        return f"below σ_E {wording.percent(row.reference_scatter)}"
+    return wording.percent(row.model_scatter)
 
 
 def count_verdicts(rows: Iterable[MetricRow | ClaimRow]) -> dict[str, int]:

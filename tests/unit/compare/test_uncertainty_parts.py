@@ -40,8 +40,8 @@ def test_the_numerical_uncertainty_covers_the_distance_to_a_fine_run(cases: tupl
 
 
 def test_springs_are_converged(cases: tuple[Case, ...]) -> None:
-    """The model keeps its own step small enough: the normal force history is within 1e-4 on springs of 2 mm already, and
-    nearer on those of 0.5 mm.
+    """The model keeps its own step small enough: the normal force history is within 1e-4 on springs of 2 mm already,
+    and nearer on those of 0.5 mm.
     """
     sizes = [
         numerical_uncertainties([case], "paper")[case.path_name, case.block_name]["normal_force"]

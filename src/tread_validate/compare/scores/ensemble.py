@@ -84,6 +84,8 @@ def summarise(group: str, rows: Sequence[MetricRow]) -> Ensemble:
             )
         except InputError as error:
             notes.append(f"no bias: {error}")
+    if bias is not None and bias.model_scatter == 0.0 and bias.total_scatter > 0.0:
+        notes.append(f"the scatter, {100 * bias.total_scatter:.2g} %, is within that of the reference")
     errors = [abs(row.error) for row in compared if row.error is not None]
     worst = max(compared, key=lambda row: abs(row.error or 0.0)) if compared else None
     return Ensemble(
