@@ -145,6 +145,18 @@ def test_the_bias_of_a_negative_peak_is_that_of_its_magnitude() -> None:
     assert found.bias == pytest.approx(1.1, rel=1e-12)
 
 
+def test_the_area_metric_of_a_constant_factor_is_that_factor_less_one() -> None:
+    """References 100 and 200 N, predictions ten per cent higher: the distributions are 15 N apart of a mean of 150 N. A
+    scatter that is smaller than the references' is said to be within it, not to be zero.
+    """
+    rows = [ROW, replace(ROW, case_id="b", reference=200.0, predicted=221.0, error=0.105)]
+    found = summarise("all", [rows[0], replace(rows[1], predicted=220.0, error=0.1)])
+    assert found.area_metric == pytest.approx(0.1, rel=1e-12)
+    within = summarise("all", [replace(row, u_data=0.05) for row in rows])
+    assert within.model_scatter == 0.0
+    assert "is within that of the reference" in within.note
+
+
 def test_many_tests_are_corrected_for_their_number() -> None:
     """Holm's step-down by hand: p of 0.01, 0.02, 0.03 of three tests become 0.03, 0.04, 0.04; models among themselves
     are another family.
