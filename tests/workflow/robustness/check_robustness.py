@@ -64,7 +64,8 @@ class Folder:
 
     def digests(self) -> dict[str, str]:
         """SHA-256 of every table and of the report's page."""
-        files = [*(self.path / "results" / "tables").iterdir(), self.path / "reports" / "index.html"]
+        name = "liu2010"
+        files = [*(self.path / "results" / name / "tables").iterdir(), self.path / "reports" / name / "index.html"]
         return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
 
     def leftovers(self) -> list[str]:

@@ -35,8 +35,10 @@ class Side:
         self.results = self.folder / "results"
         self.references = self.folder / "reference_data"
         shutil.copytree(ROOT / "reference_data", self.references, ignore=shutil.ignore_patterns("fe"))
-        self.fe = [str(self.results / "fe" / "embedded" / f"{case}.csv") for case in passes]
-        self.tables = str(self.results / "tables" / "errors.csv")
+        own = self.results / load_study(STUDY).model.name
+        self.fe = [str(own / "fe" / "embedded" / f"{case}.csv") for case in passes]
+        self.tables_folder = own / "tables"
+        self.tables = str(self.tables_folder / "errors.csv")
 
     def call(self, profile: list[str], targets: list[str], log: str, environment: dict[str, str]) -> int:
         """Run Snakemake to the end and return its exit code."""
@@ -48,11 +50,14 @@ class Side:
     def command(self, profile: list[str], targets: list[str]) -> list[str]:
         config = [f"study={STUDY}", f"decks={self.folder / 'fe_inputs'}", f"results={self.results}"]
         config += [f"references={self.references}", f"reports={self.folder / 'reports'}"]
+        config += [f"logs={self.folder / 'logs'}"]
         return [*SNAKEMAKE, *profile, "--nolock", "--config", *config, "--", *targets]
 
     def file_references(self) -> None:
         """File the FE runs as references of their cases."""
+        decks = self.folder / "fe_inputs" / load_study(STUDY).model.name
         call = ["tread-validate", "file-references", *self.fe, "--references", str(self.references)]
+        call += ["--decks", str(decks)]
         subprocess.run(call, check=True, stdout=subprocess.DEVNULL)
 
 
@@ -134,13 +139,12 @@ def main() -> int:
 
 def compare(local: Side, remote: Side) -> int:
     """Print and return whether every table is the same to the byte."""
-    names = sorted(path.name for path in (local.results / "tables").iterdir())
-    others = sorted(path.name for path in (remote.results / "tables").iterdir())
+    names = sorted(path.name for path in local.tables_folder.iterdir())
+    others = sorted(path.name for path in remote.tables_folder.iterdir())
     different = [
         name
         for name in names
-        if name in others
-        and (local.results / "tables" / name).read_bytes() != (remote.results / "tables" / name).read_bytes()
+        if name in others and (local.tables_folder / name).read_bytes() != (remote.tables_folder / name).read_bytes()
     ]
     if names != others or different:
         print(f"tables differ: {different or set(names) ^ set(others)}")
