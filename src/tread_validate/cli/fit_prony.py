@@ -35,6 +35,14 @@ def command(
     poisson: Annotated[float, number("--poissons-ratio", "poissons_ratio", "for the file and the card")] = 0.47,
     density: Annotated[float, number("--density-kg-m3", "density_kg_m3", "for the file and the card")] = 1000.0,
     fit_wlf: Annotated[bool, typer.Option("--fit-wlf", help="fit C1 and C2 instead (three temperatures)")] = False,
+    free: Annotated[bool, typer.Option("--free-shift", help="lay each sweep on its neighbour instead")] = False,
+    energy: Annotated[
+        float | None,
+        number("--arrhenius-kJ-mol", "activation_energy_kJ_mol", "shift by this instead"),
+    ] = None,
+    shifts: Annotated[
+        Path | None, typer.Option("--shift-table", help="temperature_degC, log10_shift_factor (CSV) instead")
+    ] = None,
     vertical: Annotated[bool, typer.Option("--vertical-shift", help="with --fit-wlf: a factor a sweep too")] = False,
     times: Annotated[str, typer.Option("--times", help="relaxation times: auto, even or refined")] = "auto",
     margins: Annotated[
@@ -78,6 +86,8 @@ def command(
 
     if times not in get_args(Times):
         raise InputError("--times", times, f"one of {', '.join(get_args(Times))}")
+    if sum((fit_wlf, free, energy is not None, shifts is not None)) > 1:
+        raise InputError("shift", "several kinds", "one of --fit-wlf, --free-shift, --arrhenius-kJ-mol, --shift-table")
     if vertical and not fit_wlf:
         raise InputError("--vertical-shift", "given constants", "--fit-wlf with it")
     if band is not None and not 0 < band[0] < band[1]:
@@ -99,6 +109,9 @@ def command(
         largest_error=None if prune is None else prune / 100.0,
         fit_wlf=fit_wlf,
         vertical="fitted" if vertical else "none",
+        shift="free" if free else "arrhenius" if energy is not None else "table" if shifts is not None else "wlf",
+        activation_energy=energy or 0.0,
+        shift_table=shifts,
         replicates=replicates,
     )
     route = read_route(sweeps, wlf, reference, settings, None, confirm, master, reading)
@@ -126,7 +139,17 @@ def command(
             f"fitted WLF at {reference:g} degC: C1 = {route.wlf.c1:.4f} +- {1.96 * route.wlf_fit.deviations[0]:.4f}, "
             f"C2 = {route.wlf.c2_K:.2f} +- {1.96 * route.wlf_fit.deviations[1]:.2f} K (95 %)"
         )
-    typer.echo(f"shift: {_shift_told(fit_wlf, (c1, c2, ts))}")
+    told_shift = _shift_told(fit_wlf, (c1, c2, ts))
+    if settings.shift != "wlf":
+        told_shift = (
+            f"{settings.shift}; a study shifts by the nearest WLF law, C1 = {route.wlf.c1:.4g}, "
+            f"C2 = {route.wlf.c2_K:.4g} K, which misses these shifts by up to {route.wlf_apart:.3g} decades"
+        )
+    typer.echo(f"shift: {told_shift}")
+    if route.overlap is not None and route.overlap.apart:
+        typer.echo(
+            f"warning: {route.overlap.apart} pair(s) of neighbouring sweeps share no band: nothing holds their shift"
+        )
     if (poisson, density) == (0.47, 1000.0):
         typer.echo("not given, so the paper's: Poisson's ratio 0.47, 1000 kg/m3")
     worst = max(route.fit.storage_rms, route.fit.loss_rms)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..study import Wlf
+from .exact import power_of_ten
 from .sweep import Sweep
 from .wlf import referred_to, relative_shift
 
@@ -58,11 +59,21 @@ class MasterCurve:
 
 
 def shift(
-    sweeps: tuple[Sweep, ...], wlf: Wlf, reference_temperature: float, vertical: Array | None = None
+    sweeps: tuple[Sweep, ...],
+    wlf: Wlf,
+    reference_temperature: float,
+    vertical: Array | None = None,
+    log_factors: Array | None = None,
 ) -> MasterCurve:
-    """Return the master curve at `reference_temperature` in degC; `vertical` multiplies the moduli of each sweep."""
+    """Return the master curve at `reference_temperature` in degC; `vertical` multiplies the moduli of each sweep.
+
+    `log_factors`, log10 a_T of each sweep, go before `wlf`.
+    """
     temperatures = np.array([sweep.temperature for sweep in sweeps])
-    factors = relative_shift(temperatures, reference_temperature, wlf)
+    if log_factors is None:
+        factors = relative_shift(temperatures, reference_temperature, wlf)
+    else:
+        factors = power_of_ten(log_factors)
     heights = np.ones(len(sweeps)) if vertical is None else vertical
     w = np.concatenate([s.angular_frequency * a for s, a in zip(sweeps, factors, strict=True)])
     number = np.concatenate([np.full(s.line.size, k) for k, s in enumerate(sweeps)])

@@ -21,6 +21,7 @@ from .kramers_kronig import KramersKronig, kramers_kronig
 from .master import MasterCurve, VerticalShift, WlfFit, fit_wlf, shift
 from .reduce import prune, refine_times
 from .rich import RichCurve, Scatter, rich_curve
+from .shifts import Overlap, ShiftKind, arrhenius, free_shifts, nearest_wlf, overlap, read_shift_table
 from .sweep import Sweep
 from .sweeps import check_above_pole, read_export
 
@@ -50,8 +51,10 @@ class RouteSettings:
         Prune to the fewest terms with both RMS errors at most this.
     fit_wlf : bool
         Fit C1 and C2 instead of taking the given ones.
+    shift : str
+        ``wlf``; ``free``, neighbour on neighbour; ``arrhenius`` with `activation_energy` in kJ/mol; ``table``.
     replicates : int
-        Bootstrap repeats; 0 for none.
+        Resamples of the data behind the bands of the terms; 0 for no bands.
     """
 
     terms: int = 24
@@ -63,6 +66,9 @@ class RouteSettings:
     largest_error: float | None = None
     fit_wlf: bool = False
     vertical: VerticalShift = "none"
+    shift: ShiftKind = "wlf"
+    activation_energy: float = 0.0
+    shift_table: Path | None = None
     replicates: int = 400
     seed: int = 1
 
@@ -90,6 +96,10 @@ class MaterialRoute:
         Series and relative residuals in the band.
     consistency : KramersKronig
     bands : Bands or None
+    overlap : Overlap or None
+        How well neighbouring sweeps lie on each other.
+    wlf_apart : float
+        Largest distance of `wlf` from the shifts of the sweeps, decades; 0 where they were made by it.
     understood : tuple of str
         How the files were read.
     bands_refused : str
@@ -111,6 +121,8 @@ class MaterialRoute:
     bands: Bands | None
     understood: tuple[str, ...] = ()
     bands_refused: str = ""
+    overlap: Overlap | None = None
+    wlf_apart: float = 0.0
 
     @property
     def outliers(self) -> int:
@@ -134,8 +146,8 @@ class MaterialRoute:
             "points": int(fit.angular_frequency.size),
             "sweeps": len(self.sweeps),
             "outliers_set_aside": self.outliers,
-            "lowest_frequency_rad_s": round(self.band[0], 6),
-            "highest_frequency_rad_s": round(self.band[1], 6),
+            "lowest_frequency_rad_s": float(f"{self.band[0]:.6g}"),
+            "highest_frequency_rad_s": float(f"{self.band[1]:.6g}"),
             "storage_rms_percent": round(100 * fit.storage_rms, 4),
             "loss_rms_percent": round(100 * fit.loss_rms, 4),
             "largest_storage_error_percent": round(100 * float(np.max(np.abs(fit.storage_residual))), 4),
@@ -151,6 +163,13 @@ class MaterialRoute:
             c1, c2 = self.wlf_fit.deviations
             rows["wlf_c1_deviation"], rows["wlf_c2_deviation_K"] = round(c1, 4), round(c2, 3)
             rows["overlap_misfit_percent"] = round(100 * self.wlf_fit.misfit, 3)
+        if self.overlap is not None and len(self.sweeps) > 1:
+            rows["shift"] = self.settings.shift
+            rows["overlap_of_neighbours_percent"] = round(100 * self.overlap.misfit, 3)
+            rows["worst_overlap_percent"] = round(100 * self.overlap.worst, 3)
+            rows["neighbours_apart"] = self.overlap.apart
+        if self.wlf_apart:
+            rows["wlf_misses_shifts_by_decades"] = round(self.wlf_apart, 4)
         for name, one in zip(("storage", "loss"), self.scatters, strict=True):
             rows[f"{name}_noise_percent"] = round(100 * one.noise, 3)
             rows[f"{name}_misfit_percent"] = round(100 * one.misfit, 3)
@@ -178,11 +197,15 @@ def material_route(
     Raises `InputError` for a sweep at or below the WLF pole, a band outside the data, or too few points for the terms.
     """
     chosen = settings or RouteSettings()
-    check_above_pole(sweeps, wlf, source)
+    if chosen.shift == "wlf":
+        check_above_pole(sweeps, wlf, source)
     wlf_fit = fit_wlf(sweeps, wlf, reference_temperature, chosen.vertical) if chosen.fit_wlf else None
     used = wlf if wlf_fit is None else wlf_fit.wlf
     vertical = None if wlf_fit is None else wlf_fit.vertical_factors
-    master = shift(sweeps, used, reference_temperature, vertical)
+    logs, apart = _shifts(sweeps, reference_temperature, chosen)
+    if logs is not None:
+        used, apart = nearest_wlf(np.array([sweep.temperature for sweep in sweeps]), logs, reference_temperature)
+    master = shift(sweeps, used, reference_temperature, vertical, logs)
     band = _band(master, chosen, source)
     inside = (master.angular_frequency >= band[0] * (1 - 1e-9)) & (master.angular_frequency <= band[1] * (1 + 1e-9))
     if 2 * int(inside.sum()) < chosen.terms + 1:
@@ -221,6 +244,8 @@ def material_route(
         consistency,
         found_bands,
         bands_refused=refused,
+        overlap=overlap(sweeps, np.log10(master.shift_factors)),
+        wlf_apart=apart,
     )
 
 
@@ -239,6 +264,19 @@ def read_route(
     sweeps, notes = read_export(path, modulus_unit, confirm_units, at, reading)
     source = str(path if isinstance(path, str | Path) else path[0])
     return replace(material_route(sweeps, wlf, reference_temperature, settings, source), understood=notes)
+
+
+def _shifts(sweeps: tuple[Sweep, ...], reference: float, settings: RouteSettings) -> tuple[Array | None, float]:
+    """Return log10 a_T of each sweep where they are not to be by WLF constants."""
+    temperatures = np.array([sweep.temperature for sweep in sweeps])
+    if settings.shift == "free":
+        return free_shifts(sweeps, reference), 0.0
+    if settings.shift == "arrhenius":
+        return arrhenius(temperatures, reference, settings.activation_energy), 0.0
+    if settings.shift == "table":
+        assert settings.shift_table is not None
+        return read_shift_table(settings.shift_table, temperatures, reference), 0.0
+    return None, 0.0
 
 
 def _band(master: MasterCurve, settings: RouteSettings, source: str) -> tuple[float, float]:
