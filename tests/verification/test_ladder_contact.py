@@ -10,6 +10,7 @@ from tread_validate.geometry import path_of
 from tread_validate.material import PronySeries
 from tread_validate.spring.coupled.body import BodySettings, FreeShape, make_body
 from tread_validate.spring.coupled.condense import condense
+from tread_validate.spring.coupled.estimate import face_error
 from tread_validate.spring.coupled.inputs import RoadMotion, Scene, Solid, Solver
 from tread_validate.spring.coupled.march import Course
 from tread_validate.spring.coupled.operators import FaceOperators
@@ -258,3 +259,17 @@ def test_a_small_block_runs(belt):
     face = roll(replace(belt, block=small, interference=0.05e-3))
     assert face.body.nodes_per_layer > 60
     assert face.normal_force.max() > 10.0
+
+
+@pytest.mark.parametrize(("name", "least"), [("belt", 0.0), ("rig", 0.005)])
+def test_the_estimated_error_of_the_face_covers_what_a_finer_face_changes(name, least, request):
+    """A face half as coarse again, 18 layers: peak N and T change by less than the estimate (and 0.2 %)."""
+    case = request.getfixturevalue(name)
+    estimate = face_error(case)
+    assert estimate.normal > least
+    one, finer = roll(case), roll(case, CoupledSettings(density=12.0, layers=18, step=0.75, middle_step=1.5))
+    assert abs(finer.normal_force.max() / one.normal_force.max() - 1) < estimate.normal + 2e-3
+    size = np.abs(one.tangential_force).max()
+    for extreme in (np.max, np.min):
+        change = abs(extreme(finer.tangential_force) - extreme(one.tangential_force)) / size
+        assert change < estimate.tangential + 2e-3
