@@ -143,3 +143,13 @@ def test_an_annotation_cannot_end_early() -> None:
         formatted([changed], "github")
         == "::error file=a%2Cb%3Ac%25.inp,line=3,title=TV305 material-value::50 %25%0Amore"
     )
+
+
+@pytest.mark.parametrize("target", ["../mesh.inp", "/data/mesh.inp", "C:\\work\\mesh.inp"])
+def test_an_include_elsewhere_is_not_read_and_holds_nothing_against_the_deck(target: str, tmp_path: Path) -> None:
+    """A warning at its line; names that it may define are not doubted."""
+    (tmp_path / "mesh.inp").write_text("*NODE\n1, 0.\n")
+    (tmp_path / "a").mkdir()
+    rest = "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n,\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 1, 3\n*END STEP\n"
+    (tmp_path / "a" / "a.inp").write_text(f"*INCLUDE, INPUT={target}\n{rest}")
+    assert [(one.code, one.line, one.severity) for one in lint(tmp_path / "a" / "a.inp")] == [("TV012", 1, "warning")]

@@ -16,6 +16,7 @@ from tread_validate import __version__, deck
 from tread_validate.deck.keywords import comment, keyword, number
 from tread_validate.deck.model import INCLUDED
 from tread_validate.errors import InputError
+from tread_validate.fe.model import read_model
 from tread_validate.inp import Deck, KeywordBlock, read_deck
 from tread_validate.material import prony_series
 from tread_validate.study import Case, load_study
@@ -198,3 +199,17 @@ def test_numbers_fit_the_fields_of_the_language() -> None:
 
 def test_keyword_line_spells_parameters_with_blanks() -> None:
     assert keyword("RIGID BODY", REF_NODE="A", TIE_NSET="B") == "*RIGID BODY, REF NODE=A, TIE NSET=B"
+
+
+def test_an_hourglass_control_that_the_embedded_engine_refuses_is_said_in_the_deck(
+    rig_case: Case, coarse: Coarse, tmp_path: Path
+) -> None:
+    """ENHANCED is ABAQUS's: the deck says so above it, and the engine names the line."""
+    case = coarse(rig_case)
+    case = replace(case, deck=case.deck.model_copy(update={"hourglass": "ENHANCED"}))
+    deck.write(case, tmp_path)
+    text = (tmp_path / f"{case.case_id}.inp").read_text().splitlines()
+    line = next(i for i, one in enumerate(text) if "HOURGLASS=ENHANCED" in one and one.startswith("*SECTION"))
+    assert "does not run HOURGLASS=ENHANCED" in text[line - 1]
+    with pytest.raises(InputError, match=rf"inp:{line + 1}: \*SECTION CONTROLS, HOURGLASS"):
+        read_model(tmp_path / f"{case.case_id}.inp")

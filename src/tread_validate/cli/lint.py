@@ -50,8 +50,10 @@ def command(
         if form == "text":
             for finding in mine:
                 typer.echo(str(finding))
-            if not mine and not quiet:
-                typer.echo(f"{file}: clean (read as {dialect})")
+            if not quiet:
+                counts = [(sum(one.severity == word for one in mine), word) for word in ("error", "warning", "note")]
+                said = ", ".join(f"{count} {word}(s)" for count, word in counts if count) or "clean"
+                typer.echo(f"{file}: {said} (read as {dialect})")
     if form != "text" and (found or form != "github"):
         typer.echo(formatted(found, form))
     errors = sum(finding.severity == "error" for finding in found)

@@ -28,6 +28,7 @@ FloatArray = NDArray[np.float64]
 ROAD_NODE, RING_NODE = 9000001, 9000002  # beyond any block's nodes (see mesh.MOST_ELEMENTS)
 ROAD_MARGIN = 50.0  # mm of plane beyond the block's reach
 INTERACTION = "TREAD_ROAD"
+EMBEDDED_HOURGLASS = ("STIFFNESS", "RELAX STIFFNESS")
 SYMMETRY = "SYMMETRY_PLANE"
 """Node set of the plane of symmetry: a deck that has it models half the block, and its forces count twice."""
 
@@ -84,13 +85,19 @@ def mesh(form: Form, block: BlockMesh, placement: Placement, block_name: str, ro
     ]
 
 
+def hourglass_note(kind: str) -> str:
+    """Return what a user of an hourglass control that the embedded engine does not have must know."""
+    return f"The embedded engine does not run HOURGLASS={kind} (it knows {', '.join(EMBEDDED_HOURGLASS)}); ABAQUS does"
+
+
 def material(case: Case) -> list[str]:
     """Section and compound: instantaneous moduli, Prony series of one ratio for shear and bulk, WLF shift."""
     compound = case.compound
     series = prony_series(compound, case.root)
     ratios = series.moduli / series.instantaneous_modulus
     c1, c2 = referred_to(compound.wlf, series.reference_temperature)
-    lines = [
+    lines = [] if case.deck.hourglass in EMBEDDED_HOURGLASS else [comment(hourglass_note(case.deck.hourglass))]
+    lines += [
         keyword("SECTION CONTROLS", NAME="BLOCK_CONTROLS", HOURGLASS=case.deck.hourglass),
         keyword("SOLID SECTION", ELSET="BLOCK", MATERIAL="COMPOUND", CONTROLS="BLOCK_CONTROLS"),
         ",",

@@ -205,6 +205,8 @@ class Deck:
         What keeps the deck from being known in full (a missing include), for readers that go on all the same.
     instances : tuple of (first label, name)
         Where the labels of each part instance begin, in rising order; empty for a flat deck.
+    files : tuple of Path
+        Every file that was read, the main one first.
     """
 
     path: Path
@@ -214,6 +216,7 @@ class Deck:
     parameters: Mapping[str, float | int | str] = field(default_factory=dict)
     gaps: tuple[str, ...] = ()
     instances: tuple[tuple[int, str], ...] = ()
+    files: tuple[Path, ...] = ()
 
     def named(self, *keywords: str) -> Iterator[KeywordBlock]:
         """Yield the blocks of the given keywords, in order."""

@@ -15,9 +15,10 @@ from collections.abc import Callable, Mapping
 Value = float | int | str
 
 FUNCTIONS: dict[str, Callable[..., float]] = {
-    "abs": abs, "acos": math.acos, "asin": math.asin, "atan": math.atan, "cos": math.cos, "exp": math.exp,
-    "float": float, "int": int, "log": math.log, "log10": math.log10, "max": max, "min": min, "sin": math.sin,
-    "sqrt": math.sqrt, "tan": math.tan,
+    "abs": abs, "acos": math.acos, "asin": math.asin, "atan": math.atan, "cos": math.cos, "cosh": math.cosh,
+    "exp": math.exp, "float": float, "int": int, "log": math.log, "log10": math.log10, "max": max, "min": min,
+    "pow": math.pow, "round": round, "sin": math.sin, "sinh": math.sinh, "sqrt": math.sqrt, "tan": math.tan,
+    "tanh": math.tanh,
 }  # fmt: skip
 OPERATORS: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: operator.add,

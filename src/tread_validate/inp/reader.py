@@ -70,7 +70,8 @@ def read_deck(path: Path | str, report: Report = stop) -> Deck:
     written = tuple(one.closed() for one in reader.blocks)
     blocks, instances = resolve([block for block in written if block.keyword != "PARAMETER"], report)
     text = "\n".join("\n".join(part) for part in reader.text) + "\n"
-    return Deck(source, blocks, text, written, reader.parameters, tuple(reader.gaps), instances)
+    files = tuple(dict.fromkeys(reader.files))
+    return Deck(source, blocks, text, written, reader.parameters, tuple(reader.gaps), instances, files)
 
 
 @dataclass
@@ -118,12 +119,14 @@ class _Reader:
         self.text: list[list[str]] = []
         self.parameters: dict[str, Value] = {}
         self.gaps: list[str] = []
+        self.files: list[Path] = []
         self.includes = 0
         self.budget = MOST_BYTES
 
     def read(self, path: Path, name: str, above: tuple[Path, ...]) -> None:
         """Append the blocks of one file."""
         lines, size = read_lines(path, self.budget)
+        self.files.append(path)
         self.budget -= size
         self.text.append(lines)
         marked = any("<" in line for line in lines)
@@ -183,6 +186,7 @@ class _Reader:
                 assign(text, self.parameters)
             except ValueError as error:
                 self.report("parameter", f"{name}:{number}: *PARAMETER", error, "simple arithmetic on known names")
+                self.gaps.append(text[:40])
 
     def _substituted(self, text: str, where: str) -> str:
         try:
@@ -200,7 +204,9 @@ class _Reader:
             raise InputError(where, named[:40], "a file name")
         target = (path.resolve().parent / named.replace("\\", "/")).resolve()
         if not target.is_relative_to(self.folder):
-            raise InputError(where, named, "a file inside the folder of the deck")
+            self.report("missing-include", where, f"{named}, not read", "a file inside the folder of the deck")
+            self.gaps.append(named)
+            return None
         if target in above:
             raise InputError(where, named, "a file that does not include itself")
         if len(above) > DEEPEST_INCLUDE:
@@ -217,8 +223,12 @@ class _Reader:
     def _include(self, block: _Open, path: Path, above: tuple[Path, ...]) -> None:
         """Read the file an *INCLUDE names."""
         where = f"{block.file}:{block.line}: *INCLUDE"
-        if set(block.parameters) != {"INPUT"} or not block.raw.get("INPUT"):
+        if not set(block.parameters) <= {"INPUT", "PASSWORD"} or not block.raw.get("INPUT"):
             raise InputError(where, ", ".join(block.parameters) or "no parameter", "INPUT=file and nothing else")
+        if "PASSWORD" in block.parameters:
+            self.report("missing-include", where, f"{block.raw['INPUT']}, encrypted", "a file that can be read")
+            self.gaps.append(block.raw["INPUT"])
+            return
         target = self._target(block, path, above)
         if target is not None:
             self.read(target, _relative(target, self.folder), above)
@@ -229,6 +239,7 @@ class _Reader:
         if target is None:
             return
         lines, size = read_lines(target, self.budget)
+        self.files.append(target)
         self.budget -= size
         self.text.append(lines)
         kept = [(i, line.strip()) for i, line in enumerate(lines, 1) if line.strip() and not line.startswith("**")]

@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import InputError
 from ...files import read_text
 from ...inp import Deck, problem_of, read_deck
+from ...inp.symmetry import whole
 from ...provenance import sha256_file
 
 
@@ -29,6 +30,8 @@ class DeckFacts:
         Of the first ``*ELASTIC`` line.
     digest, deck_sha256, user_sha256 : str
         Binding of a result to this deck; the last is empty without a user routine.
+    whole : float
+        Factor from the forces of the deck to those of the block: 2 where the deck models half of it.
     """
 
     case_id: str
@@ -38,6 +41,7 @@ class DeckFacts:
     digest: str
     deck_sha256: str
     user_sha256: str
+    whole: float = 1.0
 
     @property
     def pass_duration(self) -> float:
@@ -67,6 +71,7 @@ def deck_facts(deck: Path | str, user: Path | str | None = None) -> DeckFacts:
         digest=problem_of(model, None if user is None else read_text(user)).digest,
         deck_sha256=sha256_file(deck),
         user_sha256="" if user is None else sha256_file(user),
+        whole=whole(model),
     )
 
 

@@ -107,6 +107,7 @@ def import_history(
     if reaction is not None:
         checks.append(_against_reaction(table, reaction[kept], normal, shear))
     checks += [clock_check, *_plausible(table, time, normal, shear, facts)]
+    normal, shear = facts.whole * normal, facts.whole * shear
     version = table.notes.get("abaqus_version", "") or choice.version
     sources = [Path(source)] + ([] if tangential is None else [Path(tangential)])
     record: dict[str, Any] = {
@@ -122,6 +123,7 @@ def import_history(
         "deck_digest": facts.digest,
         "deck_sha256": facts.deck_sha256,
         "user_sha256": facts.user_sha256,
+        "symmetry": "half, forces doubled" if facts.whole > 1.0 else "full",
         "precision": table.notes.get("precision", "not stated"),
         "slipping": "share of touching nodes, from field frames" if slipping is not None else "not available",
         "checks": checks,

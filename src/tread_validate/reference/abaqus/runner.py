@@ -19,6 +19,7 @@ from pydantic import Field
 
 from ...errors import EngineError, one_line
 from ...fields import NonNegative, Positive, Strict
+from ...inp import read_deck
 from ...model_file import as_model
 from ...yaml_text import read_mapping
 from .importer import Imported, import_history
@@ -108,6 +109,8 @@ def run_abaqus(
     work.mkdir(parents=True, exist_ok=True)
     job = source.stem
     _copy(source, work / source.name)
+    for included in read_deck(source).files[1:]:
+        _copy(included, work / included.relative_to(source.resolve().parent))
     arguments = [f"job={job}", f"input={source.name}"]
     if user is not None:
         _copy(Path(user), work / Path(user).name)
@@ -197,4 +200,5 @@ def _tail(path: Path) -> str:
 
 def _copy(source: Path, target: Path) -> None:
     if source.resolve() != target.resolve():
+        target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)

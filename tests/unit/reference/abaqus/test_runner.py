@@ -105,3 +105,22 @@ def test_settings_file_is_checked(tmp_path):
         path.write_text(text)
         with pytest.raises(InputError, match=says):
             load_settings(path)
+
+
+def test_files_that_the_deck_includes_go_with_the_job(deck, user, work):
+    """The mesh lies beside the deck in its own file; the job finds it where the deck says."""
+    text = deck.read_text()
+    head, mesh = text.split("*NODE", 1)
+    deck.with_name("mesh-block.inp").write_text("*NODE" + mesh.split("*STEP", 1)[0])
+    deck.write_text(head + "*INCLUDE, INPUT=mesh-block.inp\n*STEP" + mesh.split("*STEP", 1)[1])
+    plan(work, odb=json.loads((work / "stand_in.json").read_text())["odb"])
+    run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None)
+    assert (work / "mesh-block.inp").read_text() == deck.with_name("mesh-block.inp").read_text()
+
+
+def test_forces_of_half_a_block_are_doubled(deck, user, work):
+    """A deck with a set SYMMETRY_PLANE models half the block: 200 N there are 400 N of the whole."""
+    deck.write_text(deck.read_text().replace("*STEP", "*NSET, NSET=SYMMETRY_PLANE\n1\n*STEP", 1))
+    imported = run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None)
+    assert imported.history.normal_force.max() == pytest.approx(400.0, rel=1e-3)
+    assert imported.record["symmetry"] == "half, forces doubled"
