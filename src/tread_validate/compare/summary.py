@@ -56,6 +56,7 @@ def _models(tables: Path) -> list[dict[str, Any]]:
                 "model": pair[0],
                 "reference": pair[1],
                 "runs": _counts(row.status for row in peaks if row.source == pair[0]),
+                "verdict": _verdict(whole[HEADLINE[0]]) if HEADLINE[0] in whole else "cannot tell",
                 "quantities": [_quantity(whole[key], own) for key in HEADLINE if key in whole],
             }
         )
@@ -82,6 +83,7 @@ def _quantity(row: Ensemble, errors: Sequence[MetricRow]) -> dict[str, Any]:
         "adequate": row.adequate,
         "inadequate": row.inadequate,
         "cannot_tell": row.cases - row.adequate - row.inadequate,
+        "verdict": _verdict(row),
         "agrees_within_uncertainty": row.agrees,
         "bias": _printed(row.bias),
         "model_scatter": _printed(row.model_scatter),
@@ -92,6 +94,13 @@ def _quantity(row: Ensemble, errors: Sequence[MetricRow]) -> dict[str, Any]:
         grades = Counter(item.grade for item in own if item.grade)
         found["grades"] = {grade: grades[grade] for grade in GRADES}
     return found
+
+
+def _verdict(row: Ensemble) -> str:
+    """Say what all cases come to: adequate only where every one is, inadequate where any is not."""
+    if row.inadequate:
+        return "inadequate"
+    return "adequate" if row.adequate == row.cases else "cannot tell"
 
 
 def _states(peaks: Sequence[PeakRow]) -> dict[str, dict[str, int]]:
