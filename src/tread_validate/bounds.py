@@ -92,6 +92,7 @@ NAMES = {
     "n": _size(100.0),
     "m": _size(1e3),
     "margin": _size(1e6),
+    "strain_percent": _size(500.0, "%"),
     "activation_energy_kJ_mol": _size(1e4, "kJ/mol"),
     "loss_weight": Bound(0.0, 1e3),
     "prune_percent": Bound(0.0, 100.0, "%", open=True),

@@ -48,6 +48,7 @@ VERBS = {
     "import-belt": "import_belt",
     "import-rig": "import_rig",
     "import-abaqus": "import_abaqus",
+    "strain-effect": "strain_effect",
     "synthesize": "synthesize",
     "stimulus": "stimulus",
     "abaqus": "abaqus",

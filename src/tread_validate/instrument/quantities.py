@@ -86,6 +86,11 @@ FRICTION = (
              "--temperature-unit"),
     Quantity("run", "run", ("run", "repeat", "repetition", "runnumber"), NONE),
 )  # fmt: skip
+STRAIN_SWEEP = (
+    Quantity("strain", "strain", ("strain", "strainamplitude", "dynamicstrain", "amplitude", "ε", "e0"), STRAIN,
+             "--strain-unit"),
+    next(quantity for quantity in DMA if quantity.key == "storage"),
+)  # fmt: skip
 SHEAR = {"g'", "g''", "gstor", "gloss", "shearstoragemodulus", "shearlossmodulus", "g*", "gstorage", "storagemodulusg'"}
 
 
