@@ -11,7 +11,9 @@ import numpy as np
 
 from ..errors import InputError
 from ..files import write_text
+from ..provenance import commit, version
 from ..study import Case
+from ..yaml_text import write_yaml
 from .design import design
 from .figures import error_figure, held_out_figure
 from .points import MESHES, run_points
@@ -31,7 +33,7 @@ class Settings:
 
 
 def build(base: Case, output: Path, settings: Settings, say: Callable[[str], None]) -> tuple[Point, ...]:
-    """Run what is missing, write ``map.csv``, ``held_out.csv`` and figures, and return the points.
+    """Run what is missing, write table, record (what made it) and figures, and return the points.
 
     Raises `InputError` where no point is done yet.
     """
@@ -47,6 +49,13 @@ def build(base: Case, output: Path, settings: Settings, say: Callable[[str], Non
     if not points:
         raise InputError("map", "no point done", "more minutes")
     write_text(output / "map.csv", table_text(points))
+    bound = {str(data["bound"]["fe"]) for data in done}
+    record = {
+        "points": len(points), "refused": refused, "no_reference": weak, "asked_for": settings.runs,
+        "fe_code": sorted(bound), "models_code": done[0].get("models_bound", {}), "version": version(),
+        "commit": commit(),
+    }  # fmt: skip
+    write_yaml(output / "map.yaml", record)
     rows = held_out(cases, points)
     write_text(output / "held_out.csv", _csv(rows))
     error_figure(points, output / "figures" / "errors")
