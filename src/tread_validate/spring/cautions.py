@@ -58,5 +58,4 @@ def cautions(case: Case, variant: str) -> tuple[str, ...]:
 def _falls(friction: FrictionLaw, pressure: float, slip: float) -> bool:
     """Tell whether friction is smaller at this slip speed (m/s) than at rest or at half the speed, by 2 % or more."""
     here, slower = (float(friction.kinetic(pressure, speed)) for speed in (slip, 0.5 * slip))
-    flat = friction.kind == "coulomb"
-    return here < 0.98 * (friction.static_coefficient if flat else slower)
+    return here < 0.98 * max(friction.static_coefficient, slower)

@@ -58,7 +58,7 @@ def prepare_coupled(case: Case, settings: CoupledSettings | None = None) -> Coup
 
 
 def prepare_coarse(case: Case) -> CoupledPass:
-    """Return the case ready to run on the 2 mm face of `COARSE`."""
+    """Return the case ready to run on the coarse face."""
     return prepare_coupled(case, COARSE)
 
 
