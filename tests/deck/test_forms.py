@@ -85,13 +85,16 @@ def test_changing_speed_and_interference_by_hand_is_the_deck_of_that_speed_and_i
 
 
 def test_half_a_block_gives_the_forces_of_the_whole(belt_case: Case, coarse: Coarse, tmp_path: Path) -> None:
-    """The plane z = 0 is one of symmetry: what is left is the order of sums, 1e-9 of the peak."""
+    """The plane z = 0 is one of symmetry: at one and the same increment what is left is the order of sums, 1e-9."""
     results = []
     for symmetry in ("full", "half"):
         case = coarse(belt_case)
         case = replace(case, deck=case.deck.model_copy(update={"element_size_mm": 2.5, "symmetry": symmetry}))
         deck.write(case, tmp_path / symmetry)
-        assert lint(tmp_path / symmetry / f"{case.case_id}.inp") == []
+        file = tmp_path / symmetry / f"{case.case_id}.inp"
+        assert lint(file) == []
+        text = file.read_text().replace("*DYNAMIC, EXPLICIT", "*DYNAMIC, EXPLICIT, DIRECT USER CONTROL")
+        file.write_text(re.sub(r"^, <(\w+)_time>", r"4.E-6, <\1_time>", text, flags=re.MULTILINE))
         results.append(run_deck(tmp_path / symmetry / f"{case.case_id}.inp", tmp_path / symmetry / "vfric.f"))
     full, half = results
     assert 2 * half.record["elements"] == full.record["elements"]

@@ -6,7 +6,9 @@ that the same study gives the same text on another machine.
 
 from __future__ import annotations
 
+import hashlib
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,8 +35,31 @@ SYMMETRY = "SYMMETRY_PLANE"
 """Node set of the plane of symmetry: a deck that has it models half the block, and its forces count twice."""
 
 
-def mesh_lines(block: BlockMesh, points: FloatArray, rows: bool, decimals: int = 5) -> list[str]:
+class _Keyed:
+    """Arguments of `_mesh_lines`, equal where their numbers are: cases of one block share its text."""
+
+    def __init__(self, block: BlockMesh, points: FloatArray, rows: bool, decimals: int) -> None:
+        self.given = (block, points, rows, decimals)
+        total = hashlib.sha256(f"{rows} {decimals} {points.shape}".encode())
+        for array in (points, block.s, block.u, block.elements, block.symmetry_nodes):
+            total.update(np.ascontiguousarray(array).tobytes())
+        self.key = total.digest()
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Keyed) and self.key == other.key
+
+
+def mesh_lines(block: BlockMesh, points: FloatArray, rows: bool, decimals: int = 5) -> tuple[str, ...]:
     """Nodes, elements, sets and the contact surface; with `rows`, a node set for each row of mount nodes."""
+    return _mesh_lines(_Keyed(block, points, rows, decimals))
+
+
+@lru_cache(maxsize=8)
+def _mesh_lines(keyed: _Keyed) -> tuple[str, ...]:
+    block, points, rows, decimals = keyed.given
     node = np.arange(1, points.shape[0] + 1)
     element = np.arange(1, block.elements.shape[0] + 1)
     lines = [
@@ -53,13 +78,13 @@ def mesh_lines(block: BlockMesh, points: FloatArray, rows: bool, decimals: int =
             sets[f"MOUNT_{index:03d}"] = block.mount_nodes[place == s]
     for name, nodes in sets.items():
         lines += [keyword("NSET", NSET=name), *integers(nodes + 1)]
-    return [
+    return (
         *lines,
         keyword("ELSET", ELSET="FACE_ELEMENTS"),
         *integers(block.face_elements + 1),
         keyword("SURFACE", TYPE="ELEMENT", NAME="FACE"),
         "FACE_ELEMENTS, S1",
-    ]
+    )
 
 
 def mount_place(block: BlockMesh) -> FloatArray:
@@ -70,7 +95,7 @@ def mount_place(block: BlockMesh) -> FloatArray:
 def mesh(form: Form, block: BlockMesh, placement: Placement, block_name: str, rows: bool) -> list[str]:
     """Put the block where it starts: from a file in its own frame, or with its nodes in place."""
     if form.single_file:
-        return mesh_lines(block, np.round(placement.placed(placement.written), 8) + 0.0, rows, decimals=8)
+        return list(mesh_lines(block, np.round(placement.placed(placement.written), 8) + 0.0, rows, decimals=8))
     x, y = placement.origin.tolist()
     c, s = 100.0 * math.cos(placement.angle), 100.0 * math.sin(placement.angle)
     return [

@@ -11,32 +11,13 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
-from .deck import LARGEST_LABEL, DataLine, KeywordBlock, Lines, label
-from .placement import RigidMotion, instance_motion, moved_nodes, moved_profile, still, system_motion
-from .table import integer_rows
+from .deck import LARGEST_LABEL, KeywordBlock, label
+from .placement import instance_motion, still
+from .qualify import DEFINES, REFERS, UNPLACED, Scope, largest_label, part_names, placed_nodes, qualified, round_up
 
 Report = Callable[[str, str, object, str], None]
 
 STRUCTURE = frozenset({"PART", "END PART", "INSTANCE", "END INSTANCE", "ASSEMBLY", "END ASSEMBLY"})
-DEFINES = {
-    "NSET": "NSET",
-    "ELSET": "ELSET",
-    "SURFACE": "NAME",
-    "ORIENTATION": "NAME",
-    "NODE": "NSET",
-    "ELEMENT": "ELSET",
-}
-"""Keywords that define a name in their part, and by which parameter."""
-REFERS = ("NSET", "ELSET", "REF NODE", "TIE NSET", "PIN NSET", "ANALYTICAL SURFACE", "ORIENTATION", "SURFACE")
-"""Parameters that refer to a name or label of the part."""
-ALL_LABELS = frozenset({"NSET", "ELSET"})
-FIRST_LABEL = frozenset({
-    "SURFACE", "BOUNDARY", "CLOAD", "DLOAD", "INITIAL CONDITIONS", "TEMPERATURE", "MASS", "TRANSFORM", "TIE",
-    "CONTACT PAIR", "DSLOAD", "EMBEDDED ELEMENT", "EQUATION", "MPC",
-})  # fmt: skip
-"""Keywords whose data lines begin with a label or name of the part."""
-UNPLACED = frozenset({"NGEN", "NFILL", "NCOPY", "ELCOPY", "ELGEN", "NMAP", "ORIENTATION", "TRANSFORM"})
-"""Keywords that a moved or renumbered instance does not carry over."""
 
 
 @dataclass
@@ -46,23 +27,6 @@ class _Part:
     name: str
     at: KeywordBlock
     blocks: list[KeywordBlock] = field(default_factory=list)
-
-
-@dataclass(frozen=True)
-class _Scope:
-    """What the names and labels of one instance become."""
-
-    prefix: str
-    first: int
-    names: frozenset[str]
-
-    def name(self, text: str) -> str:
-        """Return a name or label of the part as the flat deck has it."""
-        bare = text.strip()
-        if bare.isdigit():
-            return str(int(bare) + self.first) if self.first else bare
-        named = label(bare)
-        return f'"{self.prefix}.{named}"' if named in self.names and self.prefix else text
 
 
 def resolve(
@@ -102,7 +66,7 @@ class _Resolver:
         self.open: list[KeywordBlock] = []
         self.held: _Part | None = None
         self.assembly: _Part | None = None
-        self.own: _Scope | None = None
+        self.own: Scope | None = None
 
     def run(self, written: Sequence[KeywordBlock]) -> tuple[tuple[KeywordBlock, ...], tuple[tuple[int, str], ...]]:
         """Resolve all blocks."""
@@ -121,7 +85,7 @@ class _Resolver:
             self._tell("structure", block, f"*{block.keyword} without *END {block.keyword}", "both")
             if block.keyword == "INSTANCE":
                 self._end_instance(block)
-        return tuple(_systems(self.flat)), tuple(self.instances)
+        return tuple(placed_nodes(self.flat)), tuple(self.instances)
 
     def _tell(self, rule: str, block: KeywordBlock, found: object, expected: str) -> None:
         self.report(rule, f"{block.where}: *{block.keyword}", found, expected)
@@ -137,8 +101,8 @@ class _Resolver:
             elif block.keyword == "ASSEMBLY":
                 inside, assembly = False, True
             elif not inside and block.keyword in ("NODE", "ELEMENT"):
-                largest = max(largest, _largest_label([block]))
-        self.next_label = _round_up(largest) if largest else 0
+                largest = max(largest, largest_label([block]))
+        self.next_label = round_up(largest) if largest else 0
         if assembly and largest:
             self.instances.append((0, ""))
 
@@ -163,7 +127,7 @@ class _Resolver:
 
     def _end_assembly(self, block: KeywordBlock) -> None:
         self._close(block, "ASSEMBLY")
-        self.own, self.assembly = _Scope("", 0, frozenset()), None
+        self.own, self.assembly = Scope("", 0, frozenset()), None
 
     def _instance(self, block: KeywordBlock) -> None:
         if self.held is not None and self.held.at.keyword == "INSTANCE":
@@ -232,17 +196,17 @@ class _Resolver:
             self.report("structure", error.where, error.found, error.expected)
             motion = still()
         if self.uncounted:  # counted when another instance comes: a deck of one needs no count
-            self.next_label += _round_up(_largest_label(self.uncounted))
+            self.next_label += round_up(largest_label(self.uncounted))
         first, self.uncounted = self.next_label, blocks
-        if first + (_largest_label(blocks) if first else 0) > LARGEST_LABEL:
+        if first + (largest_label(blocks) if first else 0) > LARGEST_LABEL:
             self._tell("structure", at, f"labels beyond {LARGEST_LABEL} in all instances together", "fewer or lower")
             return
         self.instances.append((first, name))
-        scope = _Scope(name, first, frozenset(_names(blocks)))
-        for block in _systems(blocks, motion, first):
+        scope = Scope(name, first, frozenset(part_names(blocks)))
+        for block in placed_nodes(blocks, motion, first):
             if block.keyword in UNPLACED and (first or not motion.is_identity):
                 self._tell("not-placed", block, f"in instance {name}, moved or renumbered", "an instance as it stands")
-            self.flat.append(_qualified(block, scope, motion))
+            self.flat.append(qualified(block, scope, motion))
 
     def _of_assembly(self, block: KeywordBlock) -> KeywordBlock:
         """Return a block of the assembly or after it, with labels of the form ``INSTANCE.7`` resolved."""
@@ -252,8 +216,8 @@ class _Resolver:
             if first is None:
                 self._tell("dangling-instance", block, f"instance {instance}", "an *INSTANCE of the assembly")
                 return block
-            prefix = _Scope(instance, first, frozenset(self._names_of(instance)))
-            block = _qualified(block, prefix, still(), define=False)
+            prefix = Scope(instance, first, frozenset(self._names_of(instance)))
+            block = qualified(block, prefix, still(), define=False)
             parameters = {name: value for name, value in block.parameters.items() if name != "INSTANCE"}
             return KeywordBlock(block.keyword, parameters, block.data, block.file, block.line, block.raw)
         return self._with_labels(block)
@@ -298,104 +262,3 @@ class _Resolver:
         else:
             data = block.data
         return KeywordBlock(block.keyword, parameters, data, block.file, block.line, block.raw)
-
-
-def _systems(
-    blocks: Iterable[KeywordBlock], motion: RigidMotion | None = None, first: int = 0
-) -> Iterable[KeywordBlock]:
-    """Apply ``*SYSTEM`` and the instance's motion to the nodes; everything else passes."""
-    place = motion or still()
-    local = still()
-    for block in blocks:
-        if block.keyword == "SYSTEM":
-            local = system_motion(block)
-        elif block.keyword == "NODE":
-            yield moved_nodes(block, place.after(local), first)
-        else:
-            yield block
-
-
-def _names(blocks: Iterable[KeywordBlock]) -> Iterable[str]:
-    for block in blocks:
-        parameter = DEFINES.get(block.keyword)
-        value = block.parameters.get(parameter) if parameter else None
-        if value:
-            yield value
-
-
-def _qualified(block: KeywordBlock, scope: _Scope, motion: RigidMotion, define: bool = True) -> KeywordBlock:
-    """Return a block of a part as one of the flat deck."""
-    parameters = dict(block.parameters)
-    own = DEFINES.get(block.keyword)
-    for name in {*REFERS, *([own] if own else [])} & set(parameters):
-        value = parameters[name]
-        if not value or (name == own and not define):
-            continue
-        parameters[name] = label(scope.name(f'"{value}"' if not value.isdigit() else value))
-    data = block.data
-    if block.keyword == "SURFACE" and (block.parameters.get("TYPE") or "ELEMENT") not in ("ELEMENT", "NODE"):
-        block = moved_profile(block, motion)
-        data = block.data
-    elif block.keyword == "ELEMENT":
-        data = _raised(block, scope.first)
-    elif block.keyword in ALL_LABELS:
-        data = _members(block, scope)
-    elif block.keyword in FIRST_LABEL:
-        data = block.data.with_texts([_first_named(line, scope) for line in block.data])
-    return KeywordBlock(block.keyword, parameters, data, block.file, block.line, block.raw)
-
-
-def _raised(block: KeywordBlock, first: int) -> Lines:
-    """Return element lines with every label raised."""
-    if not first or not len(block.data):
-        return block.data
-    rows = integer_rows(block.data, block.data.texts[0].count(",") + 1)
-    if rows is not None:
-        return block.data.with_texts([str(row)[1:-1] for row in (rows + first).tolist()])
-    texts = []
-    for line in block.data:
-        if not all(text.isdigit() for text in line.fields if text):
-            raise InputError(line.where, line.text[:40], "element label and nodes")
-        raised = ", ".join(str(int(text) + first) if text else "" for text in line.fields)
-        texts.append(raised + ("," if line.text.endswith(",") else ""))
-    return block.data.with_texts(texts)
-
-
-def _members(block: KeywordBlock, scope: _Scope) -> Lines:
-    """Return the data of ``*NSET`` or ``*ELSET``; the increment of GENERATE is no label."""
-    generated = "GENERATE" in block.parameters
-    if not scope.first and not scope.names:
-        return block.data
-    texts = []
-    for line in block.data:
-        fields = [scope.name(text) if text else text for text in line.fields]
-        if generated and len(fields) > 2:
-            fields[2:] = line.fields[2:]
-        texts.append(", ".join(fields))
-    return block.data.with_texts(texts)
-
-
-def _first_named(line: DataLine, scope: _Scope) -> str:
-    fields = list(line.fields)
-    if not fields or not fields[0]:
-        return line.text
-    fields[0] = scope.name(fields[0])
-    return ", ".join(fields) + ("," if len(fields) == 1 else "")
-
-
-def _largest_label(blocks: Iterable[KeywordBlock]) -> int:
-    """Return the largest node or element label that the blocks define."""
-    largest = 0
-    for block in blocks:
-        if block.keyword not in ("NODE", "ELEMENT"):
-            continue
-        for text in block.data.texts:
-            head = text.split(",", 1)[0].strip()
-            if head.isdigit() and len(head) < 10:
-                largest = max(largest, int(head))
-    return largest
-
-
-def _round_up(value: int) -> int:
-    """Return the power of ten above `value`, so that raised labels still show the one in the part."""
-    return int(10 ** len(str(max(value, 1))))

@@ -11,7 +11,8 @@ from ...inp import Deck, KeywordBlock
 from ...inp.sets import sorted_labels
 from . import elements as kinds
 from .findings import Findings
-from .names import ElementTable, Names
+from .mesh_tables import ElementTable
+from .names import Names
 from .syntax import is_number, number
 from .table import LAWS, SECTION_KEYWORDS
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -11,11 +10,8 @@ from numpy.typing import NDArray
 
 from ...inp import DataLine, Deck, KeywordBlock, label
 from ...inp.sets import Sets, is_label, sorted_labels
-from ...inp.table import integer_rows, plain_rows
-from . import elements as kinds
 from .findings import Finding, Findings
-from .spelling import misspelt
-from .syntax import check_lines, is_number, number
+from .mesh_tables import ElementTable, read_elements, read_nodes
 
 IntArray = NDArray[np.int64]
 FloatArray = NDArray[np.float64]
@@ -37,21 +33,6 @@ NAMED = {
     "ORIENTATION": "NAME",
 }
 """Keywords that define a name, and by which parameter."""
-
-
-@dataclass(frozen=True)
-class ElementTable:
-    """The elements of one ``*ELEMENT``: ids (m,), node ids (m, k), and the data line of each."""
-
-    block: KeywordBlock
-    kind: str
-    ids: IntArray
-    nodes: IntArray
-    rows: IntArray
-
-    def line(self, row: int) -> DataLine:
-        """Return the line of an element."""
-        return self.block.data[int(self.rows[row])]
 
 
 @dataclass
@@ -124,8 +105,8 @@ def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
     if made:
         first = next(deck.named(*made))
         findings.add(first, "not-checked", f"*{first.keyword}: nodes and elements it makes are not followed")
-    _nodes(deck, names, findings)
-    _elements(deck, names, findings)
+    names.node_ids, names.coordinates = read_nodes(deck, findings)
+    names.elements = read_elements(deck, findings)
     for keyword, parameter in NAMED.items():
         table = names.named.setdefault(keyword, {})
         for block in deck.named(keyword):
@@ -145,129 +126,6 @@ def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
 def _may_repeat(block: KeywordBlock) -> bool:
     """Whether a name may be given again: a surface that is combined or trimmed goes by another rule."""
     return block.keyword == "SURFACE" and bool({"COMBINE", "CROP", "TRIM"} & set(block.parameters))
-
-
-def _nodes(deck: Deck, names: Names, findings: Findings) -> None:
-    blocks, tables, rows = [], [], []
-    for block in deck.named("NODE"):
-        table = plain_rows(block.data)
-        if table is None:
-            check_lines(block, findings)
-            table, row = _node_lines(block, findings)
-        else:
-            row = np.arange(table.shape[0], dtype=np.int64)
-        wide = np.zeros((table.shape[0], 4))
-        width = min(4, table.shape[1])
-        wide[:, :width] = table[:, :width]
-        blocks.append(block)
-        tables.append(wide)
-        rows.append(row)
-    if not tables:
-        return
-    whole = np.concatenate(tables)
-    names.node_ids = whole[:, 0].astype(np.int64)
-    names.coordinates = whole[:, 1:]
-    starts = np.cumsum([0, *(table.shape[0] for table in tables)]).tolist()
-
-    def line(index: int) -> DataLine:
-        which = bisect_right(starts, index) - 1
-        return blocks[which].data[int(rows[which][index - starts[which]])]
-
-    for first, second in _repeated(names.node_ids)[:MOST]:
-        same = names.shown(int(names.node_ids[second]))
-        text = f"node {same} is already defined in line {line(first).number}"
-        findings.add(line(second), "duplicate-node", text)
-
-
-def _repeated(ids: IntArray) -> list[tuple[int, int]]:
-    """Return (first place, later place) of every label that comes again."""
-    order = np.argsort(ids, kind="stable")
-    again = np.flatnonzero(np.diff(ids[order]) == 0)
-    return [(int(order[i]), int(order[i + 1])) for i in again]
-
-
-def _node_lines(block: KeywordBlock, findings: Findings) -> tuple[FloatArray, IntArray]:
-    """Read node lines one at a time; what is none is reported and left out."""
-    places, rows = [], []
-    for row, line in enumerate(block.data):
-        fields = line.fields
-        if not fields or not is_label(fields[0]):
-            findings.add(line, "bad-node", f"*NODE: {line.text[:40]}: expected id, x, y, z")
-            continue
-        numbers = [number(text) if is_number(text) else 0.0 for text in fields[1:4]]
-        places.append([float(fields[0]), *numbers, *[0.0] * (3 - len(numbers))])
-        rows.append(row)
-    return np.array(places, dtype=np.float64).reshape(-1, 4), np.array(rows, dtype=np.int64)
-
-
-def _elements(deck: Deck, names: Names, findings: Findings) -> None:
-    for block in deck.named("ELEMENT"):
-        kind = (block.parameters.get("TYPE") or "").upper()
-        count = kinds.node_count(kind)
-        if not kinds.is_known(kind):
-            near = misspelt(kind, kinds.EXAMPLES)
-            if near is not None:
-                findings.add(block, "element-type", f"*ELEMENT, TYPE={kind}: no such type; did you mean {near}?")
-            else:
-                findings.add(block, "not-checked", f"*ELEMENT, TYPE={kind}: elements of this type are not checked")
-        if count is None:
-            first = [line.fields[0] for line in block.data if line.fields and is_label(line.fields[0])]
-            ids = np.array(list(map(int, first)), dtype=np.int64)
-            names.elements.append(ElementTable(block, kind, ids, np.zeros((ids.size, 0), dtype=np.int64), _range(ids)))
-            continue
-        table = integer_rows(block.data, count + 1)
-        rows = np.arange(len(block.data), dtype=np.int64)
-        if table is None:
-            check_lines(block, findings)
-            table, rows = _element_lines(block, kind, count + 1, findings)
-        names.elements.append(ElementTable(block, kind, table[:, 0], table[:, 1:], rows))
-    _check_repeated_elements(names, findings)
-
-
-def _range(ids: IntArray) -> IntArray:
-    return np.arange(ids.size, dtype=np.int64)
-
-
-def _check_repeated_elements(names: Names, findings: Findings) -> None:
-    counted = [part for part in names.elements if part.nodes.shape[1]]
-    if not counted:
-        return
-    starts = np.cumsum([0, *(part.ids.size for part in counted)]).tolist()
-
-    def line(index: int) -> DataLine:
-        which = bisect_right(starts, index) - 1
-        return counted[which].line(index - starts[which])
-
-    ids = np.concatenate([part.ids for part in counted])
-    for first, second in _repeated(ids)[:MOST]:
-        text = f"element {names.shown(int(ids[second]))} is already defined in line {line(first).number}"
-        findings.add(line(second), "duplicate-element", text)
-
-
-def _element_lines(block: KeywordBlock, kind: str, count: int, findings: Findings) -> tuple[IntArray, IntArray]:
-    """Read element lines one at a time, joining those that go on after a comma."""
-    table: list[list[int]] = []
-    rows: list[int] = []
-    pending: list[int] = []
-    start = 0
-    for row, line in enumerate(block.data):
-        fields = [text for text in line.fields if text]
-        if not all(is_label(text) for text in fields):
-            findings.add(line, "bad-element", f"*ELEMENT: {line.text[:40]}: expected whole numbers of up to 9 digits")
-            pending = []
-            continue
-        start = start if pending else row
-        pending += map(int, fields)
-        if len(pending) < count and line.text.endswith(","):
-            continue
-        if len(pending) == count:
-            table.append(pending)
-            rows.append(start)
-        else:
-            text = f"{kind} has {count - 1} nodes, this line gives {len(pending) - 1}"
-            findings.add(block.data[start], "element-nodes", text)
-        pending = []
-    return np.array(table, dtype=np.int64).reshape(-1, count), np.array(rows, dtype=np.int64)
 
 
 def _sets(deck: Deck, names: Names, findings: Findings) -> None:
