@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import runpy
 from dataclasses import replace
 from pathlib import Path
 
@@ -166,3 +167,20 @@ def test_half_width_of_a_mean_peak_adds_passes_noise_and_cell(record: RigRecord)
     without, half = passes.half_width(spread), passes.half_width(spread, 0.01)
     assert half**2 - without**2 == pytest.approx((0.01 * spread.mean) ** 2)
     assert without > 2.0 * spread.deviation / np.sqrt(passes.count)
+
+
+def test_the_worked_example_gives_the_peaks_of_its_page(root: Path, tmp_path: Path) -> None:
+    """Drift, noise, a gap, a missed pass and a turning cell: peaks within their half-widths of those without faults."""
+    path = tmp_path / "synthetic_faulty.csv"
+    made = runpy.run_path(str(root / "examples" / "rig_record" / "make_record.py"))
+    made["main"](path)
+    names = {"time_s": "t", "normal_force_N": "Fn", "tangential_force_N": "Ft", "wheel_angle_deg": "phi"}
+    faulty = read_record(path, names)
+    clean = cut_passes(synthetic_record(revolutions=12, drift=0.0).record)
+    passes = cut_passes(axle_fixed(faulty, np.radians(made["ZERO"])))
+    assert (passes.passes_in_gaps, passes.passes_without_contact, passes.count) == (1, 1, 9)
+    for name in ("peak_normal_force", "largest_tangential_force", "least_tangential_force"):
+        spread = getattr(passes, name)
+        assert abs(spread.mean - getattr(clean, name).mean) < passes.half_width(spread)
+    turning = cut_passes(faulty).largest_tangential_force
+    assert turning.mean > 1.2 * clean.largest_tangential_force.mean
