@@ -159,7 +159,7 @@ def test_forces_of_a_turning_cell_come_back_in_axes_fixed_to_the_axle(direction:
     back = axle_fixed(cell, zero, direction)
     assert np.max(np.abs(back.normal_force - n)) < 0.01 * n.max()
     assert np.max(np.abs(back.tangential_force - f)) < 0.01 * n.max()
-    assert np.max(np.abs(cell.tangential_force - f)) > 0.1 * n.max()
+    assert np.max(np.abs(cell.tangential_force - f)) > 0.3 * f.max()  # what unturned axes would cost
 
 
 def test_half_width_of_a_mean_peak_adds_passes_noise_and_cell(record: RigRecord) -> None:
