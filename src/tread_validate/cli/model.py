@@ -16,7 +16,7 @@ def command(
         Path, typer.Option("-o", "--output", help="folder for ID.csv, ID.json (outcome and cost), logs, summary.csv")
     ],
     case: Annotated[list[str] | None, typer.Option("--case", help="id of one case; may be given again")] = None,
-    jobs: Annotated[int, typer.Option("--jobs", min=1, max=256, help="cases at a time, of a command that runs one")] = 1,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, max=256, help="cases at a time (commands of one case)")] = 1,
     report_only: Annotated[bool, typer.Option("--report-only", help="end with 0 even where every case failed")] = False,
     trust_models: Annotated[
         bool, typer.Option("--trust-models", help="run what the study names as command or Python object")

@@ -17,7 +17,6 @@ from tread_validate.cli.options import WRITTEN
 from tread_validate.history import COLUMNS
 
 READ = {
-    "--shift-table", "--sweep",
     "--mesh",
     "--study", "--user", "--settings", "--deck", "--tangential", "--references", "--decks", "--baseline", "--store",
     "--spring", "--tables", "--delta", "--ladder", "--pitch", "--impulse-response", "--transfer-function",
