@@ -25,12 +25,15 @@ class Small:
     def source(self) -> Path:
         return self.folder / "src" / "tread_validate"
 
-    def study(self, name: str = "small", file: str = "config/study.yaml", **deck: object) -> Path:
-        """Write a study of two rig cases on a coarse mesh, and return its file."""
+    def study(self, name: str = "small", file: str = "config/study.yaml", belt: bool = False, **deck: object) -> Path:
+        """Write a study of two cases on a coarse mesh, rigs or a warm rig and a sliding belt, and return its file."""
         data = yaml.safe_load((ROOT / "config" / "study.yaml").read_text(encoding="utf-8"))
-        rig = data["runs"][0]
+        rig, tyre = data["runs"]
         rig.update(block="rectangle", temperature_degC=22.0, interference_mm=0.2, speed_rpm=[450.0, 600.0])
         data.update(name=name, runs=[rig])
+        if belt:
+            rig.update(temperature_degC=45.0, speed_rpm=600.0)
+            data["runs"].append(dict(tyre, path="simplified", creep_percent=0.3))
         data["spring"]["variants"] = ["paper"]
         data["deck"].update({"element_size_mm": 4.0, "layers": 4, "constant_friction_variant": False, **deck})
         path = self.folder / file
