@@ -82,7 +82,7 @@ class _Resolver:
             else:
                 self.flat.append(block)
         for block in self.open:
-            self._tell("structure", block, f"*{block.keyword} without *END {block.keyword}", "both")
+            self._tell("structure", block, f"no *END {block.keyword}", f"*END {block.keyword}")
             if block.keyword == "INSTANCE":
                 self._end_instance(block)
         return tuple(placed_nodes(self.flat)), tuple(self.instances)
@@ -155,7 +155,7 @@ class _Resolver:
         if any(one.keyword == keyword for one in self.open):
             while self.open[-1].keyword != keyword:
                 missing = self.open.pop()
-                self._tell("structure", missing, f"*{missing.keyword} without *END {missing.keyword}", "both")
+                self._tell("structure", missing, f"no *END {missing.keyword}", f"*END {missing.keyword}")
             self.open.pop()
             return
         self._tell("structure", block, f"no *{keyword} open", f"*{keyword} before it")

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ...inp import DataLine, Deck, KeywordBlock, Lines
 from ...inp.deck import to_float
+from ...inp.parameters import MARK
 from ...inp.table import all_numbers
 from ...inp.vocabulary import Keyword, keywords
 from .findings import Findings
@@ -143,7 +144,7 @@ def _check_data(block: KeywordBlock, known: Keyword, findings: Findings) -> None
 
 def _check_numbers(block: KeywordBlock, line: DataLine, findings: Findings) -> None:
     for text in line.fields:
-        if text and not is_number(text):
+        if text and not is_number(text) and not MARK.search(text):  # a name without a value is said elsewhere
             findings.add(line, "not-a-number", f"*{block.keyword}: {text[:40]} is not a number")
             return
 
