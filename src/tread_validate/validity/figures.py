@@ -12,10 +12,12 @@ from ..files import atomic_path
 from ..ladder.figures import STYLES
 from .table import Point
 
-SHOWN = (
-    ("interference", "D/h", True), ("length", "l/h", True), ("radius", "R/l", True), ("friction", "mu", False),
-    ("creep", "creep over the sticking limit", False), ("poisson", "Poisson's ratio", False),
+SHOWN: tuple[tuple[str, str, tuple[float, ...]], ...] = (
+    ("interference", "D/h", (0.003, 0.01, 0.03)), ("length", "l/h", (1.5, 2.0, 3.0, 4.0)),
+    ("radius", "R/l", (3.0, 6.0, 10.0, 30.0)), ("friction", "mu", ()),
+    ("creep", "creep over the sticking limit", ()), ("poisson", "Poisson's ratio", ()),
 )  # fmt: skip
+"""Groups, their labels, and the ticks of those on a logarithmic axis."""
 MODELS = ("bonded", "coupled_coarse", "coupled")
 
 
@@ -24,15 +26,17 @@ def error_figure(points: Sequence[Point], path: Path) -> None:
     for quantity, label in (("normal", "error of peak N"), ("tangential", "error of the peaks of T")):
         figure = Figure(figsize=(9.0, 5.6), layout="constrained")
         FigureCanvasAgg(figure)
-        for axes, (name, title, logarithmic) in zip(figure.subplots(2, 3, sharey=True).flat, SHOWN, strict=True):
+        for axes, (name, title, ticks) in zip(figure.subplots(2, 3, sharey=True).flat, SHOWN, strict=True):
             for model in MODELS:
                 color, marker = STYLES[model]
                 x = [getattr(point.groups, name) for point in points]
                 y = [100.0 * max(abs(point.errors[model][quantity]), 1e-4) for point in points]
                 axes.plot(x, y, marker, color=color, ms=3.5, alpha=0.75, mew=0.0, label=model)
             axes.set_yscale("log")
-            if logarithmic:
+            if ticks:
                 axes.set_xscale("log")
+                axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+                axes.minorticks_off()
             axes.set_xlabel(title)
             axes.grid(color="#e6e9ec", linewidth=0.6)
         figure.axes[0].legend(fontsize=7.5, frameon=False)
