@@ -25,7 +25,7 @@ from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
 from .marks import Marks
 from .pdf import write_pdf
 from .results import ensemble_table
-from .route import route_items
+from .route import route_items, worth_items
 from .summary import CAVEAT, LEAD, summary
 from .table1 import differences_table, table1
 from .tables import read_tables
@@ -129,7 +129,7 @@ def compose(study_path: Path, places: Places) -> Report:
         delta,
         Section("forces", "Force histories and peaks, as in the paper", figure_items(drawn.forces())),
         Section("contact", "Pressure on the contact face", figure_items(drawn.contact())),
-        Section("material", "Compound and friction", figure_items(drawn.material())),
+        Section("material", "Compound and friction", (*worth_items(study, drawn), *figure_items(drawn.material()))),
         Section("geometry", "Belt, rig and mesh", figure_items(drawn.geometry())),
         Section("route", "From raw data to model input", route_items(study, drawn)),
         ladder_section(places.ladder, study, places.out / "figures", marks),

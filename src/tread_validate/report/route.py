@@ -5,10 +5,22 @@ from __future__ import annotations
 from ..geometry.trace import level
 from ..geometry.trace_import import read_ridges
 from ..material.compound import compound_route
+from ..material.worth import worths
 from ..study import LoadedStudy, MeasuredBelt
-from .content import Cell, Column, Item, Row, Table
+from .content import Cell, Column, Item, Paragraph, Row, Table
 from .figures import Studio, figure_items
 from .figures import route as drawings
+
+
+def worth_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
+    """Return for each compound what its series is worth for the runs of the study."""
+    found = []
+    for worth in worths(study.cases()):
+        lines = [line.removeprefix("warning: ").removeprefix(f"compound {worth.name}: ") for line in worth.lines()]
+        doubtful = any(line.startswith("warning") for line in worth.lines())
+        text = f"Compound {worth.name.replace('_', ' ')}: " + "; ".join(lines) + "."
+        found.append(Paragraph(text, "warn" if doubtful else "", studio.input_marks(f"compound {worth.name}")))
+    return tuple(found)
 
 
 def route_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
