@@ -39,6 +39,7 @@ RC: dict[Any, Any] = {
 }
 MARGINS = {"left": 0.145, "right": 0.985, "bottom": 0.15, "top": 0.915}
 DPI = 150
+SVG_DPI = 90  # of what is drawn as pixels inside a drawing
 NOTE_COLOR = "#6b5200"
 METADATA: dict[str, dict[str, str | None]] = {".svg": {"Date": None, "Creator": None}, ".png": {"Software": None}}
 """What would make the same figure other bytes."""
@@ -71,16 +72,22 @@ def panel(size: tuple[float, float] | None = None) -> tuple[Figure, Axes]:
     return figure, figure.add_subplot()
 
 
-def note(figure: Figure, text: str, room: float = 0.965) -> None:
-    """Print what the figure rests on in its upper right corner; a figure that is laid out to fit leaves it room."""
-    figure.text(0.995, 0.997, text, ha="right", va="top", fontsize=6.0, color=NOTE_COLOR)
+def note(figure: Figure, text: str, room: float = 0.965, low: bool = False) -> None:
+    """Print what the figure depends on in its upper, or lower, right corner; one laid out to fit leaves it room."""
+    place, side = (0.003, "bottom") if low else (0.997, "top")
+    figure.text(0.995, place, text, ha="right", va=side, fontsize=6.0, color=NOTE_COLOR)
     engine = figure.get_layout_engine()
     if isinstance(engine, ConstrainedLayoutEngine):
-        engine.set(rect=(0, 0, 1, room))
+        engine.set(rect=(0, 1.0 - room, 1, room) if low else (0, 0, 1, room))
 
 
 def save(figure: Figure, path: Path | str) -> None:
     """Write a figure, atomically, as its name's ending says; the same figure gives the same bytes."""
     suffix = Path(path).suffix.lower()
     with atomic_path(path) as temporary:
-        figure.savefig(temporary, dpi=DPI, format=suffix[1:] or "png", metadata=METADATA.get(suffix or ".png"))
+        figure.savefig(
+            temporary,
+            dpi=SVG_DPI if suffix == ".svg" else DPI,
+            format=suffix[1:] or "png",
+            metadata=METADATA.get(suffix or ".png"),
+        )

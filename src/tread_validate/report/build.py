@@ -15,7 +15,7 @@ from . import figures
 from .baseline import baseline_section
 from .cases import case_views
 from .claims import claims_table
-from .content import Item, Report, Section
+from .content import Item, Paragraph, Report, Section
 from .error_charts import heatmap, scatter
 from .extra import ladder_section, mesh_table
 from .figures import figure_items
@@ -23,10 +23,11 @@ from .histories import HistoryStore, load_histories
 from .html import render
 from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
 from .marks import Marks
+from .models import Costs, models_table
 from .pdf import write_pdf
 from .results import ensemble_table
 from .route import route_items, worth_items
-from .summary import CAVEAT, LEAD, summary
+from .summary import CAVEAT, first_screen
 from .table1 import differences_table, table1
 from .tables import read_tables
 from .widgets import browser
@@ -43,6 +44,11 @@ class Places:
     out: Path
     baseline_delta: Path | None = None
     ladder: Path | None = None
+
+    @property
+    def models(self) -> Path:
+        """Histories of the user's own models, beside those of the springs."""
+        return self.spring.parent / "models"
 
 
 def build_report(
@@ -102,7 +108,7 @@ def compose(study_path: Path, places: Places) -> Report:
     marks = Marks(tables.assumed)
     views = case_views(tables.cases)
     rig = rig_peaks(places.reference, study.cases())
-    histories = load_histories(tables, HistoryStore(places.spring, places.reference, rig))
+    histories = load_histories(tables, HistoryStore(places.spring, places.models, places.reference, rig))
     look = looks([*tables.sources("fe"), *tables.sources("rig")], [*tables.sources("spring"), *tables.sources("model")])
     browse, data = browser(tables, views, histories, look, marks)
     heat, data["heat"] = heatmap(tables, views, marks)
@@ -114,8 +120,13 @@ def compose(study_path: Path, places: Places) -> Report:
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
     results += [table for table in (mesh_table(places.reference), sensitivity) if table is not None]
+    screen = first_screen(
+        tables, marks, models_table(tables, study, Costs.read(places.ladder, places.models, study), marks), moved,
+        drawn.overview(),
+    )  # fmt: skip
+    notes = tuple(Paragraph(text, tone="mute") for text in study.model.notes)
     sections = [
-        Section("summary", "How far can the model be trusted?", (summary(tables, marks, moved),)),
+        Section("summary", "How far can the models be trusted?", (screen, Paragraph(CAVEAT), *notes)),
         Section("results", "Results", tuple(results)),
         Section(
             "table1",
@@ -124,7 +135,7 @@ def compose(study_path: Path, places: Places) -> Report:
         ),
         Section("claims", "Published statements", (claims_table(tables, marks),)),
         Section("cases", "Case browser", (browse,), page_only=True),
-        Section("heatmaps", "Errors over the factor grid", (heat, *figure_items(drawn.heat(), pdf=True))),
+        Section("heatmaps", "Errors over the test matrix", (heat, *figure_items(drawn.heat(), pdf=True))),
         Section("scatter", "Predicted against reference", (points, *figure_items(drawn.scatter(), pdf=True))),
         delta,
         Section("forces", "Force histories and peaks, as in the paper", figure_items(drawn.forces())),
@@ -139,8 +150,6 @@ def compose(study_path: Path, places: Places) -> Report:
     return Report(
         title="Tread-block validation report",
         subtitle=study.model.title,
-        lead=(*(() if any(row.error is not None for row in tables.errors) else (NOTHING,)), *LEAD, CAVEAT),
-        notes=study.model.notes,
         sections=tuple(section for section in sections if section is not None and section.items),
         stamp=stamp(tables),
         page_data=data,

@@ -42,7 +42,16 @@ def claims_table(tables: Tables, marks: Marks) -> Table:
     )
     lines = tuple(_line(kind, members, sources, marks) for (kind, _), members in ordered)
     caption = "Under each value its verdict and its error, in per cent or in the unit."
-    return Table("claims", "What the paper states, and what is found here", columns, lines, caption, with_marks=True)
+    return Table(
+        "claims",
+        "What the paper states, and what is found here",
+        columns,
+        lines,
+        caption,
+        with_marks=True,
+        csv="claims.csv",
+        help="Grouped by what agreement is worth; a model is judged only where the inputs are the paper's.",
+    )
 
 
 def _model_sources(rows: Sequence[ClaimRow]) -> list[str]:

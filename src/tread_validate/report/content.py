@@ -15,7 +15,7 @@ Tone = Literal["", "good", "bad", "unknown", "warn", "mute"]
 
 @dataclass(frozen=True)
 class Mark:
-    """An assumed or synthetic input that a number rests on: its code in the list of assumptions, and its kind."""
+    """An assumed or synthetic input that a number depends on: its code in the list of assumptions, and its kind."""
 
     code: str
     origin: str
@@ -24,12 +24,17 @@ class Mark:
 
 @dataclass(frozen=True)
 class Cell:
-    """One table cell: what is shown, what it sorts by, and its tone (never the only carrier of a meaning)."""
+    """One table cell: what is shown, what it sorts by, its tone (never the only carrier of a meaning).
+
+    `case` is the case that it leads to; cells of another `kind` (a unit) are sorted apart.
+    """
 
     text: str
     sort: float | str | None = None
     tone: Tone = ""
     note: str = ""
+    case: str = ""
+    kind: str = ""
 
 
 @dataclass(frozen=True)
@@ -55,7 +60,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """A sortable table."""
+    """A sortable table; `help` is a line on how to read it, `csv` the name of the table of the results behind it."""
 
     key: str
     title: str
@@ -65,11 +70,13 @@ class Table:
     with_marks: bool = False
     folded: bool = False
     empty: str = "No rows."
+    help: str = ""
+    csv: str = ""
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawn figure: an SVG file, with the words that stand for it."""
+    """A drawn figure: an SVG file and its numbers as CSV, with the words that stand for it."""
 
     key: str
     title: str
@@ -77,11 +84,12 @@ class Figure:
     svg: Path
     marks: tuple[Mark, ...] = ()
     wide: bool = False
+    data: Path | None = None
 
 
 @dataclass(frozen=True)
 class Figures:
-    """Figures that belong side by side; `pdf_only` ones stand in for a widget of the page."""
+    """Figures that belong side by side; `pdf_only` ones take the place of a widget of the page."""
 
     items: tuple[Figure, ...]
     pdf_only: bool = False
@@ -98,22 +106,28 @@ class Paragraph:
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """One line of the summary: a question, the answer in words, and its tone."""
+class Fact:
+    """One line of the first screen beside the models: what it is about, what is found, and where the rest stands."""
 
-    question: str
-    answer: str
-    tone: Tone
     label: str
-    marks: tuple[Mark, ...] = ()
+    text: str
+    tone: Tone = ""
     link: str = ""
+    marks: tuple[Mark, ...] = ()
 
 
 @dataclass(frozen=True)
-class Verdicts:
-    """The summary's lines."""
+class FirstScreen:
+    """What a reader sees first: what was compared, a row for every model, the facts, and one picture.
 
-    items: tuple[Verdict, ...]
+    `alarm` is the sentence that stands before all others where nothing could be compared.
+    """
+
+    sentence: str
+    models: Table
+    facts: tuple[Fact, ...]
+    alarm: str = ""
+    picture: Figure | None = None
 
 
 @dataclass(frozen=True)
@@ -124,17 +138,18 @@ class Widget:
     data: Mapping[str, Any] = field(default_factory=dict)
 
 
-Item = Table | Figures | Paragraph | Verdicts | Widget
+Item = Table | Figures | Paragraph | FirstScreen | Widget
 
 
 @dataclass(frozen=True)
 class Section:
-    """A numbered section; `page_only` ones are left out of the PDF."""
+    """A numbered section; `page_only` ones are left out of the PDF, `pdf_only` ones of the page."""
 
     key: str
     title: str
     items: tuple[Item, ...]
     page_only: bool = False
+    pdf_only: bool = False
 
 
 @dataclass(frozen=True)
@@ -143,8 +158,6 @@ class Report:
 
     title: str
     subtitle: str
-    lead: tuple[str, ...]
-    notes: tuple[str, ...]
     sections: tuple[Section, ...]
     stamp: tuple[tuple[str, str], ...]
     page_data: Mapping[str, Any] = field(default_factory=dict)

@@ -27,6 +27,7 @@ class HistoryStore:
     """Where the histories of one report lie."""
 
     spring: Path
+    models: Path
     reference: Path
     rig: Mapping[str, RigPeak] = field(default_factory=dict)
 
@@ -44,10 +45,8 @@ class HistoryStore:
     def path(self, source: str, case_id: str, folder: str) -> Path:
         """Return the file of one history; it need not exist."""
         kind, _, name = source.partition(":")
-        if kind == "spring":
-            return self.spring / name / f"{case_id}.csv"
-        if kind == "model":  # of the user's own, beside the spring models' folder
-            return self.spring.with_name("models") / name / f"{case_id}.csv"
+        if kind in ("spring", "model"):
+            return (self.spring if kind == "spring" else self.models) / name / f"{case_id}.csv"
         return self.reference / folder / "history.csv"
 
 

@@ -6,6 +6,8 @@ import base64
 import hashlib
 import itertools
 import json
+import re
+import zlib
 from collections.abc import Iterable
 from importlib import resources
 from pathlib import Path
@@ -14,17 +16,18 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from .content import Report, Row
+from .content import Figures, Report, Row, Table
 from .marks import by_origin
 
-SCRIPTS = ("start.js", "sort.js", "browser.js", "heatmap.js", "scatter.js", "end.js")
+SCRIPTS = ("start.js", "figures.js", "filter.js", "sort.js", "browser.js", "heatmap.js", "scatter.js", "end.js")
 
 
 def render(report: Report) -> str:
     """Return the page's text: every asset inside, no address outside itself.
 
     The page's Content-Security-Policy names its two scripts by their SHA-256 and allows no connection, so markup that
-    came in with a study could neither run nor call out even if it were not escaped, which it is.
+    came in with a study could neither run nor call out even if it were not escaped, which it is. What is not needed at
+    once (the plotting library, histories, figures) lies in the page deflated, and is inflated when it is asked for.
     """
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(str(_templates())),
@@ -34,7 +37,7 @@ def render(report: Report) -> str:
         lstrip_blocks=True,
     )
     environment.filters.update(
-        by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri
+        by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri, size=_size
     )
     plotly, script = _plotly(), "\n".join(_asset(name) for name in SCRIPTS)
     return (
@@ -42,8 +45,8 @@ def render(report: Report) -> str:
         .render(
             report=report,
             style=Markup(_asset("style.css")),
-            data=embed_json(report.page_data),
-            plotly=Markup(plotly),
+            data=embed_json({**report.page_data, "figures": _figures(report), "tables": _folded(report, environment)}),
+            plotly=deflated(plotly),
             script=Markup(script),
             policy=_policy(plotly, script),
         )
@@ -57,6 +60,35 @@ def embed_json(data: Any) -> Markup:
     for sign in "<>&":
         text = text.replace(sign, f"\\u{ord(sign):04x}")
     return Markup(text)
+
+
+def deflated(text: str) -> str:
+    """Return a text as base64 of its raw deflate stream, as the page inflates it."""
+    packer = zlib.compressobj(9, wbits=-15)
+    return base64.b64encode(packer.compress(text.encode("utf-8")) + packer.flush()).decode("ascii")
+
+
+def _figures(report: Report) -> dict[str, str]:
+    """Return every figure that the page shows below its first screen, deflated."""
+    drawn = [item for section in report.sections for item in section.items if isinstance(item, Figures)]
+    shown = [figure for item in drawn if not item.pdf_only for figure in item.items]
+    return {figure.key: deflated(figure.svg.read_text(encoding="utf-8")) for figure in shown}
+
+
+def _folded(report: Report, environment: jinja2.Environment) -> dict[str, str]:
+    """Return the HTML of every table that is folded away, deflated."""
+    set_table = environment.get_template("macros.html.j2").module.table  # type: ignore[attr-defined]
+    tables = [item for section in report.sections for item in section.items if isinstance(item, Table) and item.folded]
+    return {table.key: deflated(str(set_table(table))) for table in tables}
+
+
+def _size(path: Path) -> Markup:
+    """Return width and height attributes of an SVG, so that the page does not move when it is drawn."""
+    found = re.search(r'<svg [^>]*?width="([0-9.]+)pt" height="([0-9.]+)pt"', path.read_text(encoding="utf-8"))
+    if found is None:
+        return Markup("")
+    width, height = (round(float(text)) for text in found.groups())
+    return Markup('width="{}" height="{}"').format(width, height)
 
 
 def _groups(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:

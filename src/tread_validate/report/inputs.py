@@ -41,7 +41,9 @@ def inputs_section(tables: Tables, marks: Marks) -> Section:
         Column("What stands in, and why", wide=True),
         Column("Cases that rest on it", numeric=True),
     )
-    assumptions = Table("assumptions", "Assumed and synthetic inputs", columns, tuple(rows), empty="None.")
+    assumptions = Table(
+        "assumptions", "Assumed and synthetic inputs", columns, tuple(rows), empty="None.", csv="assumed.csv"
+    )
     items: list[Item] = [
         Paragraph(
             "Assumed: a value that the paper does not give and that we chose. Synthetic: data made up to have the "
@@ -71,7 +73,9 @@ def _published(tables: Tables) -> Table:
         Column("Used as"),
         Column("How it is compared, or why not", wide=True),
     )
-    return Table("published", "Every number in the paper's text", columns, tuple(rows), folded=True)
+    return Table(
+        "published", "Every number in the paper's text", columns, tuple(rows), folded=True, csv="published.csv"
+    )
 
 
 def _printed(row: PublishedRow) -> str:
@@ -106,7 +110,7 @@ def sensitivity_table(tables: Tables) -> Table | None:
         Column("Case"),
     )
     title = "Sensitivity of the scores to window and sampling"
-    return Table("sensitivity", title, columns, tuple(rows), folded=True)
+    return Table("sensitivity", title, columns, tuple(rows), folded=True, csv="sensitivity.csv")
 
 
 def provenance_section(tables: Tables) -> Section:
@@ -166,7 +170,7 @@ def plain_table(key: str, title: str, frame: Any, marks: Marks, *, folded: bool 
         cells = []
         for name in names:
             value = number(record[name]) if numeric[name] else None
-            text = wording.plain(value, 4) if numeric[name] else str(record[name]).replace("spring:", "")
+            text = wording.plain(value, 4) if numeric[name] else wording.plain_text(record[name])
             cells.append(Cell(text, sort=value))
         rows.append(Row(tuple(cells), marks.of(record.get("assumed", ""))))
     columns = tuple(Column(*_title(name), numeric=numeric[name]) for name in names)

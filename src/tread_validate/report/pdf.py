@@ -18,7 +18,7 @@ import typst
 
 from ..errors import EngineError
 from ..files import write_bytes
-from .content import Cell, Column, Figures, Item, Paragraph, Report, Table, Verdicts
+from .content import Cell, Column, Figures, FirstScreen, Item, Paragraph, Report, Table
 from .marks import in_words
 
 WIDEST_TABLE = 11  # columns
@@ -38,8 +38,6 @@ def write_pdf(report: Report, path: Path) -> None:
         data = {
             "title": report.title,
             "subtitle": report.subtitle,
-            "lead": list(report.lead),
-            "notes": list(report.notes),
             "stamp": [list(pair) for pair in report.stamp],
             "sections": _sections(report, folder),
         }
@@ -79,12 +77,8 @@ def _sections(report: Report, folder: Path) -> list[dict[str, Any]]:
 def _items(item: Item, folder: Path) -> list[dict[str, Any]]:
     if isinstance(item, Paragraph):
         return [{"kind": "paragraph", "text": item.text, "tone": item.tone, "marks": in_words(item.marks)}]
-    if isinstance(item, Verdicts):
-        lines = [
-            {"q": v.question, "a": v.answer, "tone": v.tone, "label": v.label, "marks": in_words(v.marks)}
-            for v in item.items
-        ]
-        return [{"kind": "verdicts", "items": lines}]
+    if isinstance(item, FirstScreen):
+        return _first(item, folder)
     if isinstance(item, Figures):
         return [_figures(item, folder)]
     if isinstance(item, Table) and len(item.columns) > WIDEST_TABLE:
@@ -93,6 +87,18 @@ def _items(item: Item, folder: Path) -> list[dict[str, Any]]:
     if isinstance(item, Table):
         return [_table(item)]
     return []
+
+
+def _first(screen: FirstScreen, folder: Path) -> list[dict[str, Any]]:
+    """Return alarm, sentence, models, picture and facts in this order."""
+    told = [{"kind": "paragraph", "text": screen.alarm, "tone": "bad", "marks": ""}] if screen.alarm else []
+    told.append({"kind": "paragraph", "text": screen.sentence, "tone": "", "marks": ""})
+    facts = [
+        {"label": fact.label, "text": fact.text, "tone": fact.tone, "marks": in_words(fact.marks)}
+        for fact in screen.facts
+    ]
+    pictures = [_figures(Figures((screen.picture,)), folder)] if screen.picture else []
+    return [*told, _table(screen.models), *pictures, {"kind": "facts", "items": facts}]
 
 
 def _figures(figures: Figures, folder: Path) -> dict[str, Any]:
@@ -115,7 +121,7 @@ def _table(table: Table) -> dict[str, Any]:
     columns = [_column(column) for column in table.columns]
     if table.with_marks:
         legend = "S synthetic, A assumed"
-        columns.append({"title": "Rests on", "unit": legend, "numeric": False, "marks": "", "wide": False})
+        columns.append({"title": "Depends on", "unit": legend, "numeric": False, "marks": "", "wide": False})
     rows: list[dict[str, Any]] = []
     for group, members in itertools.groupby(table.rows[:LONGEST_TABLE], key=lambda row: row.group):
         if group:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from ..compare.quantities import HEADLINE
-from ..compare.tables import ClaimRow, Ensemble, MetricRow
+from ..compare.tables import Ensemble
 from . import wording
 from .content import Cell, Column, Row, Table, Tone
 from .marks import Marks
@@ -40,11 +38,14 @@ def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:
     columns = [
         Column("Quantity", wide=True),
         Column("Cases compared", "of all", numeric=True),
-        Column("Mean |error|", numeric=True),
-        Column("Largest |error|", numeric=True),
+        Column("Mean |error|", "or mean R", numeric=True),
+        Column("Largest |error|", "or least R", numeric=True),
         Column("Bias δ", "predicted / reference", numeric=True),
         Column("Scatter σ", "of the model", numeric=True),
-        Column("Within tolerance", "cases", numeric=True),
+        Column("U", "mean", numeric=True),
+        Column("Good enough", "cases; not; open", numeric=True),
+        Column("Agrees", "|E| within U", numeric=True),
+        Column("Area metric", "of mean reference", numeric=True),
     ]
     if not headline:
         columns.insert(1, Column("Cases"))
@@ -61,7 +62,9 @@ def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:
         caption,
         with_marks=True,
         folded=not headline,
-        empty="No comparison: no case has both a spring run and a current reference.",
+        empty="No comparison: no case has both a run of a model and a current reference.",
+        help="δ: predicted over reference, 1 is none. σ: scatter of the model, that of the reference taken out.",
+        csv="ensemble.csv",
     )
 
 
@@ -80,24 +83,38 @@ def _ensemble_row(row: Ensemble, marks: Marks, headline: bool) -> Row:
 
     def show(value: float | None) -> str:
         if value is None:
-            return wording.digits(value)
+            return "–"
         if row.error_type == "score":
-            return wording.digits(1.0 - value)  # of |score - 1|: the score itself
-        unit = wording.unit(row.unit)
-        return wording.percent(value) if row.error_type == "relative" else f"{wording.digits(value)} {unit}".strip()
+            return f"R {wording.digits(1.0 - value)}"
+        return (
+            wording.percent(value)
+            if row.error_type == "relative"
+            else f"{wording.digits(value)} {wording.unit(row.unit)}".strip()
+        )
+
+    kind = row.unit if row.error_type == "absolute" else row.error_type
 
     cells = [
         Cell(wording.quantity(row.quantity, row.metric), note=note),
         value_cell(row.compared, f"{row.compared} of {row.cases}"),
-        value_cell(row.mean_abs_error, show(row.mean_abs_error)),
-        value_cell(row.largest_abs_error, show(row.largest_abs_error), note=row.largest_case_id),
+        Cell(show(row.mean_abs_error), sort=row.mean_abs_error, kind=kind),
+        Cell(
+            show(row.largest_abs_error),
+            sort=row.largest_abs_error,
+            kind=kind,
+            note=row.largest_case_id,
+            case="" if row.largest_abs_error is None else row.largest_case_id,
+        ),
         value_cell(row.bias, wording.digits(row.bias)),
         value_cell(row.model_scatter, _scatter(row)),
-        value_cell(row.passed, f"{row.passed}" if row.compared else "–"),
+        value_cell(row.mean_uncertainty, wording.size(row.mean_uncertainty, row.error_type, row.unit)),
+        value_cell(row.adequate, _answers(row), note=row.criterion),
+        value_cell(row.agrees, f"{row.agrees}" if row.compared else "–"),
+        value_cell(row.area_metric, wording.percent(row.area_metric)),
     ]
     if not headline:
         cells.insert(1, Cell(wording.group(row.group)))
-    pair = f"{wording.source(row.predicted_source)} against {wording.source(row.reference_source)}"
+    pair = f"{wording.source(row.predicted_source)} compared with {wording.source(row.reference_source)}"
     return Row(tuple(cells), marks.of(row.assumed), group=pair)
 
 
@@ -108,10 +125,8 @@ def _scatter(row: Ensemble) -> str:
     return wording.percent(row.model_scatter)
 
 
-def count_verdicts(rows: Iterable[MetricRow | ClaimRow]) -> dict[str, int]:
-    """Count the verdicts of some rows; a model that is good enough counts as one that agrees."""
-    same = {"adequate": "agrees", "inadequate": "disagrees"}
-    counts = {"agrees": 0, "disagrees": 0, "cannot tell": 0}
-    for row in rows:
-        counts[same.get(row.verdict, row.verdict)] += 1
-    return counts
+def _answers(row: Ensemble) -> str:
+    """Write in how many cases the model is good enough, is not, and cannot be told."""
+    if not row.compared:
+        return "–"
+    return f"{row.adequate}; {row.inadequate}; {row.compared - row.adequate - row.inadequate}"

@@ -1,222 +1,124 @@
-"""The first screen: what was asked, and how far the models can be trusted, in sentences made from the tables."""
+"""The first screen: what was compared with what, a row for every model, and what the reader must know beside it."""
 
 from __future__ import annotations
 
-from ..compare.tables import Ensemble, MetricRow
+from collections import Counter
+from collections.abc import Iterable
+
+from ..compare.tables import ClaimRow
 from . import wording
-from .content import Tone, Verdict, Verdicts
+from .content import Fact, Figure, FirstScreen, Table, Tone
 from .marks import Marks
-from .results import count_verdicts
 from .tables import Tables, pairs_of
 
-LEAD = (
-    "Every case of the study is run with the spring models of a tread block. Where a finite element (FE) run of the "
-    "same block on the same path exists, the two are compared; both are held against what the paper published.",
-)
+NOTHING = "Nothing could be compared: no run of any model has a reference of the same problem."
 CAVEAT = (
-    "The FE runs are a second model of the same study, not measurements: agreement with them is verification of the "
-    "simpler model against the finer one. Only the published rig values are validation."
+    "The FE runs are a second model of the same study, not measurements: agreement with them verifies the simpler "
+    "model against the finer one. Only values measured on the rig, published or imported, validate."
 )
-PEAKS = ("peak_normal_force", "peak_positive_tangential_force", "peak_negative_tangential_force")
-
-MOST_OPEN = 0.1  # share of verdicts that may be `cannot tell` where the label says `agrees`
 
 
-def summary(tables: Tables, marks: Marks, delta: tuple[Tone, str] | None) -> Verdicts:
-    """Return the verdict lines."""
-    pairs = pairs_of(tables.ensemble)
-    answered = [pair for pair in pairs if _compared(tables, pair)]
-    lines = [_model(tables, marks, pair) for pair in answered]
-    lines += [_claims(tables, marks), _slopes(tables, marks), _references(tables)]
-    lines += [_unanswered(tables, [pair for pair in pairs if pair not in answered])]
-    if delta is not None:
-        question = "Has anything moved since the accepted baseline?"
-        lines.append(Verdict(question, delta[1], delta[0], _moved(delta[0]), (), "baseline"))
-    lines.append(_foundations(marks))
-    return Verdicts(tuple(line for line in lines if line is not None))
+def first_screen(
+    tables: Tables, marks: Marks, models: Table, moved: tuple[Tone, str] | None, picture: Figure | None
+) -> FirstScreen:
+    """Return the first screen's content."""
+    facts = [references(tables), _baseline(moved), _inputs(tables, marks), _unanswered(tables)]
+    facts += [_published(tables, marks), _slopes(tables, marks)]
+    alarm = "" if any(row.error is not None for row in tables.errors) else NOTHING
+    return FirstScreen(sentence(tables), models, tuple(fact for fact in facts if fact is not None), alarm, picture)
 
 
-def _references(tables: Tables) -> Verdict:
-    """Say how many FE references are current, in words."""
+def sentence(tables: Tables) -> str:
+    """Say in one sentence what was compared with what."""
+    cases = wording.plural(len(tables.cases), "case")
+    models = [name for name in dict.fromkeys(row.predicted_source for row in tables.errors) if name[:3] != "fe:"]
+    counts = Counter(row.reference_source for row in tables.errors if row.error is not None)
+    who = wording.plural(len(models), "model")
+    if not counts:
+        return f"{who} ran on {cases}."
+    references = " and ".join(wording.source(name) for name in counts)
+    paths = " and ".join(dict.fromkeys(wording.path(row.path) for row in tables.cases))
+    return f"{who} compared with {references} on {cases} of {paths}."
+
+
+def references(tables: Tables) -> Fact:
+    """Say how many reference runs are current, made by other code, stale or missing."""
     texts: list[str] = []
     worst: Tone = "good"
     for source in tables.sources("fe"):
-        states = [row.status for row in tables.peaks if row.source == source]
-        counts = {state: states.count(state) for state in dict.fromkeys(states)}
-        current = counts.pop("current", 0)
-        text = f"{wording.source(source)}: {current} of {wording.plural(len(states), 'case')} have a current run"
-        others = [f"{count} – {wording.status(state)}" for state, count in sorted(counts.items())]
-        texts.append(text + (" (" + "; ".join(others) + ")" if others else "") + ".")
+        states = Counter(row.status for row in tables.peaks if row.source == source)
+        total, current = sum(states.values()), states.pop("current", 0)
+        others = [f"{count} {wording.status(state)}" for state, count in sorted(states.items())]
+        texts.append("; ".join([f"{wording.source(source)}: {current} of {total} current", *others]))
         if others:
-            worst = "warn" if current else "bad"
+            worst = "warn" if current and worst != "bad" else "bad"
     if not texts:
-        return Verdict(
-            "Is there a reference for every case?", "No FE reference runs are recorded.", "bad", "none", (), "cases"
-        )
-    label = {"good": "all current", "warn": "incomplete", "bad": "none current"}[worst]
-    return Verdict("Is there a reference for every case?", " ".join(texts), worst, label, (), "cases")
+        return Fact("References", "no FE reference runs are recorded", "bad", "cases")
+    return Fact("References", ". ".join(texts), worst, "provenance")
 
 
-def _model(tables: Tables, marks: Marks, pair: tuple[str, str]) -> Verdict | None:
-    """Say how well one model gives forces and histories; the verdict counts normal and tangential peaks alike."""
-    row = tables.statistics(pair, PEAKS[0])
-    if row is None:
+def _published(tables: Tables, marks: Marks) -> Fact | None:
+    """Count, of the statements that models predict, how many agree with the paper."""
+    judged = [row for row in tables.claims if row.kind == "model" and row.status not in ("not_compared", "missing")]
+    if not judged:
         return None
-    mine = tables.of_pair(pair)
-    parts = [f"mean |error| {_size(row)}"]
-    parts.append(f"largest {wording.percent(row.largest_abs_error)} ({row.largest_case_id})")
-    parts += [f"bias δ = {wording.digits(row.bias)}"] if row.bias is not None else []
-    parts += [f"scatter σ = {wording.percent(row.model_scatter)}"] if row.model_scatter is not None else []
-    normal = count_verdicts(item for item in mine if item.quantity == PEAKS[0])
-    tangential = count_verdicts(item for item in mine if item.quantity in PEAKS[1:])
-    text = f"Peak normal force: {', '.join(parts)}. {_counted(normal)}."
-    text += _tangential(tables, pair, tangential) + _histories(tables, pair) + _grades(mine)
-    counts = {key: normal[key] + tangential[key] for key in normal}
-    question = f"{wording.source(pair[0])}: does it give the forces of {wording.source(pair[1])}?"
-    return Verdict(question, text, _tone(counts), _label(counts), marks.of(row.assumed), "results")
-
-
-def _compared(tables: Tables, pair: tuple[str, str]) -> bool:
-    row = tables.statistics(pair, PEAKS[0])
-    return row is not None and row.compared > 0
-
-
-def _unanswered(tables: Tables, pairs: list[tuple[str, str]]) -> Verdict | None:
-    """Name, in one line, the comparisons for which there is nothing to compare with."""
-    if not pairs:
-        return None
-    found: dict[str, list[str]] = {}
-    for predicted, reference in pairs:
-        row = tables.statistics((predicted, reference), PEAKS[0])
-        reason = wording.status(row.status) if row is not None else "no row"
-        if reference.startswith("rig:"):
-            reason = "no measured record of a pass has been imported"
-        found.setdefault(f"{wording.source(reference)}: {reason}", []).append(wording.source(predicted))
-    texts = [f"{reason}; so there is nothing to hold {', '.join(names)} against." for reason, names in found.items()]
-    return Verdict("What could not be compared?", " ".join(texts), "unknown", "cannot tell", (), "results")
-
-
-def _tangential(tables: Tables, pair: tuple[str, str], counts: dict[str, int]) -> str:
-    row = tables.statistics(pair, PEAKS[1])
-    if row is None or not row.compared:
-        return ""
-    return f" Peak tangential forces: mean |error| {_size(row)} towards the leading edge. {_counted(counts)}."
-
-
-def _histories(tables: Tables, pair: tuple[str, str]) -> str:
-    found = []
-    for quantity, name in (("normal_force", "normal"), ("tangential_force", "tangential")):
-        row = tables.statistics(pair, quantity, "relative_rms")
-        if row is not None and row.compared:
-            found.append(f"{_size(row)}{' of the peak' if row.error_type == 'relative' else ''} ({name})")
-    return f" Histories: mean RMS error {' and '.join(found)}." if found else ""
-
-
-def _size(row: Ensemble) -> str:
-    """Write a mean error in per cent or, where it is judged so, in its unit."""
-    size = row.mean_abs_error
-    return wording.percent(size) if row.error_type == "relative" else f"{wording.digits(size)} {row.unit}"
-
-
-def _grades(errors: list[MetricRow]) -> str:
-    text = ""
-    for quantity, name in (("normal_force", "normal"), ("tangential_force", "tangential")):
-        grades = [row.grade for row in errors if (row.quantity, row.metric) == (quantity, "iso18571_r")]
-        found = [f"{grades.count(g)} {g}" for g in ("excellent", "good", "fair", "poor") if g in grades]
-        if found:
-            text += f" ISO/TS 18571, {name}: {', '.join(found)}."
-    return text
-
-
-def _claims(tables: Tables, marks: Marks) -> Verdict:
-    judged = [row for row in tables.claims if row.kind == "model" and row.status != "not_compared"]
-    counts = count_verdicts(judged)
-    statements = wording.plural(len({row.claim_id for row in judged}), "published statement")
-    per_source = []
+    texts = []
     for name in dict.fromkeys(row.source for row in judged):
-        own = count_verdicts(row for row in judged if row.source == name)
-        told = f"{own['agrees']} agree, {own['disagrees']} disagree"
-        open_ = f", {own['cannot tell']} cannot be told" if own["cannot tell"] else ""
-        per_source.append(f"{wording.source(name)}: {told}{open_}")
-    text = f"{statements} predicted here. {'; '.join(per_source)}."
-    tuned = len({row.claim_id for row in tables.claims if row.kind == "tuned"})
-    if tuned:
-        text += f" Not counted: {tuned} that the stand-in compound was made to meet."
-    return Verdict(
-        "Do the models reproduce what the paper states?",
-        text,
-        _tone(counts),
-        _label(counts),
-        marks.of_column(row.assumed for row in judged),
-        "claims",
-    )
+        own = count_claims(row for row in judged if row.source == name)
+        texts.append(f"{wording.source(name)} {own['agrees']} of {sum(own.values())}")
+    text = f"{'; '.join(texts)} agree"
+    return Fact("Published statements", text, "", "claims", marks.of_column(row.assumed for row in judged))
 
 
-def _slopes(tables: Tables, marks: Marks) -> Verdict:
-    means = [row for row in tables.regression if row.set == "mean"]
-    texts: list[str] = []
-    for coefficient, name in (("a_v", "Speed, % per m/s"), ("a_theta", "Temperature, % per °C")):
-        values: dict[str, list[str]] = {}
-        for row in means:
-            if row.coefficient == coefficient and row.value is not None:
-                shown = wording.percent(row.value, 1 if coefficient == "a_v" else 2).removesuffix("%").strip()
-                values.setdefault(row.source, []).append(shown)
-        own = [f"{wording.source(source)} {' and '.join(found)}" for source, found in values.items()]
-        texts.append(f"{name} ({' and '.join(dict.fromkeys(row.shape for row in means))}): {'; '.join(own)}.")
-    different = tables.differences
-    count = sum(bool(row.significant) for row in different)
-    if different:
-        texts.append(f"{count} of {wording.plural(len(different), 'pair')} of coefficients differ significantly.")
-    return Verdict(
-        "Is the effect of speed and temperature right?",
-        " ".join(texts) or "No regressions.",
-        "unknown",
-        "see Table 1",
-        marks.of_column(row.assumed for row in means),
-        "table1",
-    )
+def _slopes(tables: Tables, marks: Marks) -> Fact | None:
+    """Say how many coefficients of speed and temperature differ from measured or published ones."""
+    told = [row for row in tables.differences if row.family.startswith("measured") and row.significant is not None]
+    told = [row for row in told if not all(name.endswith(":published") for name in (row.source_a, row.source_b))]
+    if not told:
+        return None
+    differ = [row for row in told if row.significant]
+    alone = [row for row in told if row.p_value is not None and row.p_value < 0.05]
+    text = f"{len(differ)} of {len(told)} differ from published or measured (Holm at 5 %); {len(alone)} uncorrected"
+    tone: Tone = "warn" if differ else ""
+    return Fact("Effect of speed, temperature", text, tone, "table1", marks.of_column(row.assumed for row in told))
 
 
-def _foundations(marks: Marks) -> Verdict:
+def _unanswered(tables: Tables) -> Fact | None:
+    """Name what there is nothing to compare with."""
+    pairs = pairs_of(tables.ensemble)
+    open_ = dict.fromkeys(
+        reference for pair in pairs if not ((row := tables.statistics(pair, "peak_normal_force")) and row.compared)
+        for reference in pair[1:]
+    )  # fmt: skip
+    answered = {row.reference_source for row in tables.errors if row.error is not None}
+    names = [name for name in open_ if name not in answered]
+    if not names:
+        return None
+    texts = [
+        f"{wording.source(name)} (no measured pass imported)" if name.startswith("rig:") else wording.source(name)
+        for name in names
+    ]
+    return Fact("Not compared", f"nothing from {', '.join(texts)}", "unknown", "results")
+
+
+def _baseline(moved: tuple[Tone, str] | None) -> Fact:
+    if moved is None:
+        return Fact("Baseline", "not checked", "unknown", "baseline")
+    return Fact("Baseline", moved[1], moved[0], "baseline")
+
+
+def _inputs(tables: Tables, marks: Marks) -> Fact:
+    """Say how many cases depend on inputs that are assumed or synthetic."""
     known = marks.all()
     if not known:
-        return Verdict(
-            "What does this rest on?",
-            "No input is assumed or synthetic.",
-            "good",
-            "published or measured",
-            (),
-            "inputs",
-        )
-    names = "; ".join(f"{mark.code} {mark.text.split(':')[0]}" for mark in known)
-    text = f"{wording.plural(len(known), 'input')} assumed or synthetic: {names}. Numbers that rest on them carry tags."
-    return Verdict("What does this rest on?", text, "warn", "assumptions", known, "inputs")
+        return Fact("Inputs", "all published or measured", "good", "inputs")
+    resting = sum(bool(row.assumed) for row in tables.cases)
+    kinds = Counter(mark.origin for mark in known)
+    named = " and ".join(f"{count} {origin}" for origin, count in sorted(kinds.items()))
+    text = f"{resting} of {wording.plural(len(tables.cases), 'case')} depend on {named} inputs"
+    return Fact("Inputs", text, "warn", "inputs", known)
 
 
-def _counted(counts: dict[str, int]) -> str:
-    words = (
-        ("agrees", "good enough"),
-        ("disagrees", "not"),
-        ("cannot tell", "cannot be told"),
-    )
-    return "Verdicts: " + ", ".join(f"{counts[key]} {text}" for key, text in words)
-
-
-def _tone(counts: dict[str, int]) -> Tone:
-    if counts["disagrees"]:
-        return "bad" if counts["disagrees"] >= counts["agrees"] else "warn"
-    return "good" if _label(counts) == "agrees" else "unknown"
-
-
-def _label(counts: dict[str, int]) -> str:
-    """Say `agrees` only where nothing disagrees and nearly everything could be told."""
-    told = counts["agrees"] + counts["disagrees"]
-    if not told:
-        return "cannot tell"
-    if counts["disagrees"] == 0:
-        return "agrees" if counts["cannot tell"] <= MOST_OPEN * (told + counts["cannot tell"]) else "agrees in part"
-    return "disagrees" if counts["agrees"] == 0 else "agrees in part"
-
-
-def _moved(tone: Tone) -> str:
-    return {"good": "unchanged", "bad": "moved"}.get(tone, "not checked")
+def count_claims(rows: Iterable[ClaimRow]) -> Counter[str]:
+    """Count how published statements came out."""
+    return Counter(row.verdict for row in rows)

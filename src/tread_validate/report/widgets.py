@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
+from ..compare.tables import MetricRow
 from ..history import History
 from ..palette import Look
 from . import wording
 from .cases import CaseView, factor_levels
 from .content import Mark, Widget
 from .histories import pack, samples_each
+from .html import deflated
 from .marks import Marks, by_origin
+from .models import judged
 from .tables import Tables
 
+OWN = ("current", "undefined", "no_contact", "not_given")  # statuses of one quantity, not of a whole run
 # parts of a score that the browser leaves to the CSV tables
 PARTS = ("iso18571_corridor", "iso18571_phase", "iso18571_magnitude", "iso18571_slope")
 
@@ -29,6 +34,7 @@ def browser(
     factors = factor_levels(views)
     index = {factor["key"]: {level: i for i, level in enumerate(factor["levels"])} for factor in factors}
     states = _states(tables)
+    errors = _case_errors(tables)
     samples = samples_each(sum(len(sources) for sources in histories.values()))
     cases = [
         {
@@ -52,16 +58,22 @@ def browser(
                 "color": look.color,
                 "dash": look.dash,
                 "reference": key.startswith("fe:"),
-                "slips": not key.startswith("rig:"),  # slip is not measured on the rig
+                "slips": not key.startswith("rig:"),  # sliding is not measured on the rig
             }
             for key, look in looks.items()
         ],
-        "histories": {
-            case: {key: pack(item, samples) for key, item in sources.items()} for case, sources in histories.items()
+        "packed": {
+            view.case_id: _packed(histories.get(view.case_id, {}), errors.get(view.case_id, []), samples)
+            for view in views
         },
-        "errors": _case_errors(tables),
     }
     return Widget("browser", {"factors": factors}), data
+
+
+def _packed(sources: Mapping[str, History], errors: list[dict[str, str]], samples: int) -> str:
+    """Return what the browser shows of one case, deflated: it is inflated when the case is chosen."""
+    own = {"histories": {key: pack(item, samples) for key, item in sources.items()}, "errors": errors}
+    return deflated(json.dumps(own, separators=(",", ":"), sort_keys=True, allow_nan=False))
 
 
 def _first(views: tuple[CaseView, ...], histories: Mapping[str, Mapping[str, History]]) -> str:
@@ -84,28 +96,37 @@ def _states(tables: Tables) -> dict[str, str]:
 
 
 def _case_errors(tables: Tables) -> dict[str, list[dict[str, str]]]:
-    found: dict[str, list[dict[str, str]]] = {}
+    """Return the errors of every case; what is said of a whole run stands once, beside its name."""
+    groups: dict[tuple[str, str, str], list[MetricRow]] = {}
     for row in tables.errors:
-        if row.metric in PARTS:
-            continue
-        unit = wording.unit(row.unit)
-        if row.error is None and row.reference is None and row.predicted is None:
-            continue
-        # a run that cannot be compared at all says so once, above its values
-        alike = row.error is None and row.status not in ("current", "undefined", "no_contact")
-        why = "; ".join(part for part in (wording.status(row.status), row.note) if part) if alike else ""
-        found.setdefault(row.case_id, []).append(
-            {
-                "q": wording.quantity(row.quantity, row.metric) + (f", {unit}" if unit else ""),
-                "p": wording.source(row.predicted_source),
-                "r": wording.source(row.reference_source),
-                "a": wording.digits(row.reference, 4),
-                "b": wording.digits(row.predicted, 4),
-                "e": wording.error(row.error, row.error_type, metric=row.metric),
-                "v": "–" if alike else wording.verdict(row.verdict),
-                "tone": "" if alike else wording.TONES.get(row.verdict, ""),
-                "note": "" if alike else row.note,
-                "why": why,
-            }
-        )
+        if row.metric not in PARTS and any(value is not None for value in (row.error, row.reference, row.predicted)):
+            groups.setdefault((row.case_id, row.predicted_source, row.reference_source), []).append(row)
+    found: dict[str, list[dict[str, str]]] = {}
+    for (case, *_), rows in groups.items():
+        alike = set.intersection(*(_parts(row.note) for row in rows)) if len(rows) > 1 else set()
+        status = next((wording.status(row.status) for row in rows if row.status not in OWN), "")
+        why = "; ".join(part for part in (status, *sorted(alike)) if part)
+        found.setdefault(case, []).extend(_case_error(row, why, alike) for row in rows)
     return found
+
+
+def _parts(note: str) -> set[str]:
+    return {part for part in note.split("; ") if part}
+
+
+def _case_error(row: MetricRow, why: str, alike: set[str]) -> dict[str, str]:
+    unit = wording.unit(row.unit)
+    open_ = row.error is None and row.status not in OWN
+    return {
+        "q": wording.quantity(row.quantity, row.metric) + (f", {unit}" if unit else ""),
+        "p": wording.source(row.predicted_source),
+        "r": wording.source(row.reference_source),
+        "a": wording.digits(row.reference, 4),
+        "b": wording.digits(row.predicted, 4),
+        "e": wording.error(row.error, row.error_type, metric=row.metric),
+        "v": "–" if open_ else wording.verdict(row.verdict),
+        "u": "" if open_ or row.uncertainty is None else judged(row),
+        "tone": "" if open_ else wording.TONES.get(row.verdict, ""),
+        "note": "; ".join(part for part in row.note.split("; ") if part not in alike),
+        "why": why,
+    }

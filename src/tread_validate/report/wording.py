@@ -27,13 +27,14 @@ SYMBOLS = {"agrees": "✓", "disagrees": "✗", "cannot tell": "?", "adequate": 
 VERDICTS = {"adequate": "good enough", "inadequate": "not good enough"}
 STATUSES = {
     "current": "current",
-    "missing": "no reference run yet",
-    "stale": "run belongs to another deck, other inputs or other code",
-    "other_code": "reference run made before the engine's code changed",
-    "unbound": "run that does not say what it was made from",
-    "corrupt": "reference fails its checksum",
+    "missing": "without a run",
+    "stale": "stale (made from another deck, inputs or code)",
+    "other_code": "made before the engine's code changed",
+    "unbound": "not bound to what they were made from",
+    "corrupt": "failing their checksum",
     "no_contact": "no contact",
-    "failed": "the model failed on this case",
+    "failed": "failed",
+    "incomplete": "incomplete",
     "undefined": "not defined here",
     "not_given": "not given by one of the two",
     "not_applicable": "not applicable: the study's inputs are not the paper's",
@@ -41,19 +42,25 @@ STATUSES = {
 
 
 def source(key: str) -> str:
-    """Name a source: ``spring:paper`` becomes ``Spring (paper)``."""
+    """Name a source: ``spring:paper`` becomes ``Springs of the paper``; a model of the user's own has its own name."""
     kind, _, name = key.partition(":")
     known = {
         "rig:published": "Rig (published)",
         "fe:published": "FE (published)",
         "rig:measured": "Rig (measured)",
-        "fe:embedded": "FE (embedded)",
+        "fe:embedded": "Built-in explicit FE",
         "fe:abaqus": "FE (ABAQUS)",
         "fe:calculix": "FE (CalculiX)",
+        "spring:paper": "Springs of the paper",
+        "spring:bonded": "Shape-factor springs",
+        "spring:coupled": "Condensed-FE model",
+        "study": "Study",
     }
     if key in known:
         return known[key]
-    prefix = {"spring": "Spring", "fe": "FE", "rig": "Rig", "model": "Own model"}.get(kind, kind)
+    if kind == "model":
+        return name
+    prefix = {"spring": "Springs", "fe": "FE", "rig": "Rig"}.get(kind, kind)
     return f"{prefix} ({name})" if name else prefix
 
 
@@ -111,6 +118,9 @@ def unit(text: str) -> str:
     return {"1": "", "-": "", "degC": "°C", "1/degC": "1/°C", "%/degC": "%/°C", "deg": "°"}.get(text, text)
 
 
+_unit = unit
+
+
 def signed(text: str) -> str:
     """Put a plus sign before a positive number that has none."""
     return text if text[:1] in "-−–+∞" or text == "0" else f"+{text}"
@@ -136,6 +146,32 @@ def error(value: float | None, error_type: str, unit: str = "", metric: str = "s
     if error_type == "score":
         return digits(value)
     return f"{signed(digits(value)) if metric in SIGNED else digits(value)} {unit}".strip()
+
+
+def size(value: float | None, error_type: str, unit: str = "") -> str:
+    """Write the size of an error or of an uncertainty: per cent, or two digits in its unit; a score as it is."""
+    if value is None:
+        return "–"
+    if error_type == "relative":
+        return percent(value)
+    return f"{digits(value, 2)} {_unit(unit)}".strip()
+
+
+def path(key: str) -> str:
+    """Name a path of the study."""
+    return {"rig": "the two-wheel rig", "simplified": "the tyre belt", "mid_top": "the tyre belt"}.get(
+        key, f"path {key.replace('_', ' ')}"
+    )
+
+
+def plain_text(value: object) -> str:
+    """Write a cell of a table that the report does not know: sources by name, yes and no, a dash for nothing."""
+    text = str(value).strip()
+    if text.lower() in ("", "nan", "none"):
+        return "–"
+    if text.startswith(("spring:", "fe:", "rig:", "model:")) and " " not in text:
+        return source(text)
+    return {"true": "yes", "false": "no"}.get(text.lower(), text)
 
 
 def plural(count: int, one: str, many: str | None = None) -> str:

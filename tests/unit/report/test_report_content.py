@@ -11,15 +11,19 @@ from typing import Any
 import pytest
 
 from tread_validate.compare.tables import Delta, rows_text
+from tread_validate.report import wording
 from tread_validate.report.baseline import baseline_section
 from tread_validate.report.cases import case_views, facets, factor_levels
 from tread_validate.report.claims import claims_table
 from tread_validate.report.content import Table
 from tread_validate.report.histories import HistoryStore, load_histories
 from tread_validate.report.marks import Marks
-from tread_validate.report.summary import summary
+from tread_validate.report.models import Costs, models_table, own_words
+from tread_validate.report.summary import first_screen
 from tread_validate.report.table1 import table1
 from tread_validate.report.tables import Tables, read_tables
+from tread_validate.study import LoadedStudy, load_study
+from tread_validate.study.own_model import HistoriesModel
 
 
 @pytest.fixture(scope="module")
@@ -51,24 +55,47 @@ def test_only_factors_that_vary_can_be_chosen(tables: Tables) -> None:
 
 def test_stale_reference_is_not_loaded(tables: Tables, inputs: Any, made_up: ModuleType) -> None:
     """Exact: its file exists, but its force belongs to another deck."""
-    store = HistoryStore(inputs.spring, inputs.reference)
+    store = HistoryStore(inputs.spring, inputs.spring.parent / "models", inputs.reference)
     assert store.path("fe:embedded", made_up.STALE, f"fe/embedded/{made_up.STALE}-0").is_file()
     assert set(load_histories(tables, store)[made_up.STALE]) == {"spring:paper"}
 
 
-def test_summary_counts_verdicts_and_gives_bias_and_scatter(tables: Tables, marks: Marks) -> None:
-    """Exact: 16 of 18 cases compared, each 10 % low; two cannot be told; tangential peaks are counted too."""
-    first = summary(tables, marks, None).items[0]
-    assert "mean |error| 10.0\u00a0%" in first.answer
-    assert "bias δ = 0.900" in first.answer
-    assert "0 good enough, 16 not, 2 cannot be told" in first.answer
-    assert "0 good enough, 32 not, 4 cannot be told" in first.answer
-    assert first.tone == "bad"
-    assert [mark.code for mark in first.marks] == ["S1"]
+@pytest.fixture
+def study(inputs: Any) -> LoadedStudy:
+    """Load the made-up study."""
+    return load_study(inputs.study)
 
 
-def test_summary_does_not_claim_agreement_where_nothing_was_compared(inputs: Any, marks: Marks) -> None:
-    """Exact: without a single current reference the answer is `cannot tell`, never `agrees` and never a zero."""
+def test_a_model_has_one_row_with_errors_score_assessment_and_cost(
+    tables: Tables, study: LoadedStudy, marks: Marks
+) -> None:
+    """Exact: 16 of 18 cases compared, each 10 % low; R = 1 - 0.09; both forces fail their tolerance and are named."""
+    table = models_table(tables, study, Costs({"spring:paper": 1.4e-3}), marks)
+    assert [row.cells[0].text for row in table.rows] == ["Springs of the paper"]
+    cells = table.rows[0].cells
+    assert cells[1].text == "10.0\u00a0%; 10.0\u00a0%"
+    assert cells[3].text == "0.91 good; –"
+    assert cells[4].text == "✗ N and T not good enough"
+    assert "N: 0 of 16 met" in cells[4].note
+    assert cells[5].text == "1.40 ms"
+    assert [mark.code for mark in table.rows[0].marks] == ["S1"]
+
+
+def test_first_screen_names_cases_references_baseline_and_inputs(
+    tables: Tables, study: LoadedStudy, marks: Marks
+) -> None:
+    """Exact: one sentence, then a fact each; two references are not current and each is said why."""
+    screen = first_screen(tables, marks, models_table(tables, study, Costs({}), marks), None, None)
+    words = "1 model compared with Built-in explicit FE on 18 cases of the two-wheel rig and the tyre belt."
+    assert (screen.alarm, screen.sentence) == ("", words)
+    facts = {fact.label: fact.text for fact in screen.facts}
+    assert facts["References"].startswith("Built-in explicit FE: 16 of 18 current; 1 without a run; 1 stale")
+    assert facts["Baseline"] == "not checked"
+    assert facts["Inputs"] == "18 of 18 cases depend on 3 assumed and 1 synthetic inputs"
+
+
+def test_where_nothing_was_compared_that_is_said_first(inputs: Any, study: LoadedStudy, marks: Marks) -> None:
+    """Exact: without a single current reference the assessment is `cannot tell`, never `good enough`, never a zero."""
     tables = read_tables(inputs.tables)
     blank = {"mean_abs_error": None, "largest_abs_error": None, "bias": None, "model_scatter": None}
     empty = replace(
@@ -76,19 +103,27 @@ def test_summary_does_not_claim_agreement_where_nothing_was_compared(inputs: Any
         ensemble=tuple(replace(row, **blank, compared=0, status="missing") for row in tables.ensemble),
         errors=tuple(replace(row, error=None, verdict="cannot tell") for row in tables.errors),
     )
-    lines = {line.question: line for line in summary(empty, marks, None).items}
-    assert not any("does it give the forces" in question for question in lines)
-    first = lines["What could not be compared?"]
-    assert first.label == "cannot tell"
-    assert "no reference run yet" in first.answer
-    assert "0.0" not in first.answer
+    screen = first_screen(empty, marks, models_table(empty, study, Costs({}), marks), None, None)
+    assert screen.alarm.startswith("Nothing could be compared")
+    cells = screen.models.rows[0].cells
+    assert [cell.text for cell in cells[1:]] == ["–", "–", "–", "? cannot tell", "–"]
+    assert cells[4].note == "without a run"
+
+
+def test_an_own_model_stands_by_its_name_description_and_origin(tables: Tables, study: LoadedStudy) -> None:
+    """Exact: what the study says of it, and nothing for a built-in model."""
+    own = HistoriesModel(kind="histories", folder="h", description="Winkler foundation", origin="A. Engineer")
+    named = replace(study, model=study.model.model_copy(update={"models": {"mine": own}}))
+    assert own_words(named, "model:mine") == "Winkler foundation; A. Engineer"
+    assert own_words(named, "spring:paper") == ""
+    assert wording.source("model:mine") == "mine"
 
 
 def test_table_1_has_a_column_for_every_source(tables: Tables, marks: Marks) -> None:
     """Exact: published columns first and untagged; a_v of 3 % times the source's factor, in per cent per m/s."""
     table = table1(tables, marks)
     titles = [column.title for column in table.columns[2:]]
-    assert titles == ["Rig (published)", "FE (published)", "FE (embedded)", "Spring (paper)"]
+    assert titles == ["Rig (published)", "FE (published)", "Built-in explicit FE", "Springs of the paper"]
     assert [bool(column.marks) for column in table.columns[2:]] == [False, False, True, True]
     assert [cell.text for cell in table.rows[0].cells[2:]] == [
         "3.60",
@@ -103,7 +138,7 @@ def test_claim_without_a_value_shows_a_dash_and_its_reason(tables: Tables, marks
     """Exact: the third claim has no run behind it."""
     row = claims_table(tables, marks).rows[2]
     assert row.cells[4].text == "–"
-    assert row.cells[4].note == "? cannot tell; no reference run yet"
+    assert row.cells[4].note == "? cannot tell; without a run"
 
 
 def test_report_without_a_check_says_so(marks: Marks) -> None:

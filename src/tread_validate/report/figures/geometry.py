@@ -177,9 +177,7 @@ def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...]) -> Drawn
     polygons = _visible(points, bricks)
 
     def paint(axes: Axes) -> None:
-        axes.add_collection(
-            PolyCollection(list(polygons), facecolors="#f4ead2", edgecolors="#3c4650", linewidths=0.3, rasterized=True)
-        )
+        axes.add_collection(PolyCollection(list(polygons), facecolors="#f4ead2", edgecolors="#3c4650", linewidths=0.3))
         axes.autoscale_view()
         axes.set(aspect="equal")
         axes.set_axis_off()

@@ -15,11 +15,12 @@ from ...palette import Look
 from ...study import Case, LoadedStudy
 from .. import wording
 from ..cases import CaseView
-from ..content import Mark
+from ..content import Figure, Mark
 from ..marks import Marks
 from ..table1 import regression_sources
 from ..tables import Tables, pairs_of
 from . import contact, errors, forces, geometry, material, regressions
+from .overview import overview
 from .style import Drawn
 
 
@@ -37,6 +38,15 @@ class Studio:
     reference: Path
     folder: Path
     rig: Mapping[str, RigPeak] = field(default_factory=dict)
+
+    def overview(self) -> Figure | None:
+        """Draw the first screen's picture: the first of the cases with most histories; None without any."""
+        known = [view for view in self.views if self.histories.get(view.case_id)]
+        if not known:
+            return None
+        view = max(known, key=lambda view: len(self.histories[view.case_id]))
+        own = tuple(row for row in self.tables.errors if row.case_id == view.case_id)
+        return overview(self.folder, view, self.histories[view.case_id], self.looks, own, self.marks.of(view.assumed))
 
     def regressions(self) -> tuple[Drawn, ...]:
         """Draw coefficients and residuals."""

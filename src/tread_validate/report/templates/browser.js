@@ -3,7 +3,12 @@
 TV.browser = (function () {
   const data = TV.data;
   const byId = new Map(data.cases.map((item) => [item.id, item]));
-  let current = null;
+  let current = null, held = null, visible = false;
+
+  /* histories and errors of one case, inflated when it is shown */
+  async function fetchCase(id) {
+    return JSON.parse(await TV.inflate(data.packed[id]));
+  }
 
   /* packed histories: whole numbers times a scale; times as differences */
   function unpack(packed) {
@@ -36,13 +41,13 @@ TV.browser = (function () {
     }
   }
 
-  function drawHistories() {
+  function drawHistories(own) {
     const traces = [];
     for (const source of data.sources) {
-      const packed = (data.histories[current.id] || {})[source.key];
+      const packed = own.histories[source.key];
       if (!packed) { continue; }
       const history = unpack(packed);
-      const line = { color: source.color, dash: source.dash, width: source.reference ? 2.4 : 1.8 };
+      const line = { color: TV.ink(source.color), dash: source.dash, width: source.reference ? 2.4 : 1.8 };
       const common = { mode: "lines", type: "scatter", x: history.time, line, name: source.label, legendgroup: source.key };
       traces.push(Object.assign({}, common, { y: history.normal, hovertemplate: "%{y:.1f} N" }));
       if (history.tangential) { traces.push(Object.assign({}, common, { y: history.tangential, yaxis: "y2", showlegend: false, hovertemplate: "%{y:.2f} N" })); }
@@ -50,24 +55,24 @@ TV.browser = (function () {
     }
     const layout = TV.layout({
       grid: { rows: 3, columns: 1 }, hovermode: "x unified", dragmode: TV.coarse ? false : "zoom",
-      xaxis: TV.axis("time from first touch, ms", { anchor: "y3", domain: [0, 1] }),
-      yaxis: TV.axis("normal, N", { domain: [0.6, 1] }),
-      yaxis2: TV.axis("tangential, N", { domain: [0.24, 0.56] }),
-      yaxis3: TV.axis("slip, %", { domain: [0, 0.18], range: [-4, 104], dtick: 50 }),
+      xaxis: TV.axis("time from first contact, ms", { anchor: "y3", domain: [0, 1] }),
+      yaxis: TV.axis("normal force, N", { domain: [0.6, 1] }),
+      yaxis2: TV.axis("longitudinal force, N", { domain: [0.24, 0.56] }),
+      yaxis3: TV.axis("sliding area, %", { domain: [0, 0.18], range: [-4, 104], dtick: 50 }),
       height: 560,
     });
     if (traces.length === 0) {
       layout.annotations = [{ text: "no history for this case", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.8 }];
     }
-    Plotly.react("case-plot", traces, layout, TV.config);
+    return TV.draw("case-plot", traces, layout);
   }
 
-  function drawErrors() {
+  function drawErrors(own) {
     const body = document.getElementById("case-errors");
     body.replaceChildren();
     let last = null;
-    for (const row of data.errors[current.id] || []) {
-      const pair = row.p + " against " + row.r;
+    for (const row of own.errors) {
+      const pair = row.p + " compared with " + row.r;
       if (pair !== last) {
         const head = TV.element("th", { colspan: 5, scope: "colgroup" }, pair);
         if (row.why) { head.append(TV.element("span", { class: "why" }, row.why)); }
@@ -75,6 +80,7 @@ TV.browser = (function () {
         last = pair;
       }
       const verdict = TV.element("td", { class: "verdict " + (row.tone ? row.tone + "-text" : "") }, row.v);
+      if (row.u) { verdict.append(TV.element("span", { class: "why" }, row.u)); }
       if (row.note) { verdict.append(TV.element("span", { class: "why" }, row.note)); }
       body.append(TV.element("tr", {}, TV.element("td", {}, row.q), TV.element("td", { class: "num" }, row.a),
         TV.element("td", { class: "num" }, row.b), TV.element("td", { class: "num" }, row.e), verdict));
@@ -98,20 +104,52 @@ TV.browser = (function () {
     document.getElementById("case-link").setAttribute("href", "#case=" + current.id);
   }
 
-  function show(id, moveHash) {
+  async function show(id, moveHash) {
     const item = byId.get(id);
     if (!item) { return false; }
     current = item;
-    drawHead(); drawFactors(); drawErrors(); drawHistories();
+    const unknown = document.getElementById("case-unknown");
+    unknown.hidden = true;
+    drawHead(); drawFactors();
     if (moveHash) { history.replaceState(null, "", "#case=" + id); }
+    const own = await fetchCase(id);
+    if (current !== item) { return true; }
+    held = own;
+    drawErrors(own);
+    if (visible) { await drawHistories(own); }
     return true;
   }
 
+  /* An address that names no case of this report says so, and shows the first case. */
   function fromHash(scroll) {
-    const match = /^#case=([a-z0-9-]+)$/.exec(location.hash);
-    if (!match || !show(match[1], false)) { return false; }
+    const match = /^#case=(.*)$/.exec(location.hash);
+    if (!match) { return false; }
+    let id = match[1];
+    try { id = decodeURIComponent(id); } catch { /* taken as it stands */ }
+    const known = byId.has(id);
+    const shown = show(known ? id : (current ? current.id : data.first), false);
+    if (!known) {
+      shown.then(() => {
+        const unknown = document.getElementById("case-unknown");
+        unknown.textContent = "This report has no case " + id + "; shown is " + current.id + ".";
+        unknown.hidden = false;
+      });
+    }
     if (scroll) { document.getElementById("browser").scrollIntoView({ block: "start" }); }
     return true;
+  }
+
+  function saveCsv(event) {
+    event.preventDefault();
+    const lines = ["source,time_ms,normal_force_N,longitudinal_force_N,sliding_area_fraction"];
+    for (const source of data.sources) {
+      const packed = held && held.histories[source.key];
+      if (!packed) { continue; }
+      const series = unpack(packed);
+      series.time.forEach((time, i) => lines.push([source.key, time, series.normal[i], series.tangential[i], series.slipping[i]]
+        .map((value) => (typeof value === "number" ? Number(value.toPrecision(7)) : value)).join(",")));
+    }
+    TV.figures.save(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }), current.id + ".csv");
   }
 
   function step(by) {
@@ -129,6 +167,10 @@ TV.browser = (function () {
     document.getElementById("case-previous").addEventListener("click", () => step(-1));
     document.getElementById("case-next").addEventListener("click", () => step(1));
     window.addEventListener("hashchange", () => fromHash(true));
+    document.getElementById("case-csv").addEventListener("click", saveCsv);
+    const redraw = () => { if (held && visible) { drawHistories(held); } };
+    TV.near(document.getElementById("case-plot"), () => { visible = true; redraw(); });
+    TV.dark.addEventListener("change", redraw);
     if (!fromHash(true)) { show(data.first, false); }
   }
   return { start, show, current: () => (current ? current.id : null) };

@@ -11,7 +11,11 @@ TV.scatter = (function () {
       ticks = TV.logTicks(low, high);
       const line = (factor, name, style) => ({ type: "scatter", mode: "lines", x: [low, high], y: [factor * low, factor * high],
         name, legendgroup: name, showlegend: name === "equal", line: style, hoverinfo: "skip" });
-      traces.push(line(1, "equal", { color: "#000", width: 1 }));
+      if (chosen.reference) {
+        const own = Math.exp(2 * chosen.reference);
+        for (const factor of [own, 1 / own]) { traces.push(line(factor, "reference 2σ", { color: TV.color("muted"), width: 1, dash: "dot" })); }
+      }
+      traces.push(line(1, "equal", { color: TV.color("ink"), width: 1 }));
       for (const series of chosen.series) {
         if (series.bias !== null) {
           traces.push(line(series.bias, series.label, { color: series.color, width: 1.6, dash: "dash" }));
@@ -36,16 +40,23 @@ TV.scatter = (function () {
       layout.annotations = [{ text: "no current reference to compare with", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5 }];
       layout.xaxis = TV.axis("reference, " + chosen.unit); layout.yaxis = TV.axis("predicted, " + chosen.unit);
     }
-    Plotly.react("scatter-plot", traces, layout, TV.config);
+    return TV.draw("scatter-plot", traces, layout);
   }
   function start() {
     const select = document.getElementById("scatter-quantity");
     if (!select) { return; }
-    select.addEventListener("change", draw);
-    draw();
-    document.getElementById("scatter-plot").on("plotly_click", (event) => {
-      const id = event.points[0].customdata;
-      if (id) { location.hash = "case=" + id; }
+    const plot = document.getElementById("scatter-plot");
+    let seen = false;
+    const redraw = () => { if (seen) { draw(); } };
+    select.addEventListener("change", redraw);
+    TV.dark.addEventListener("change", redraw);
+    TV.near(plot, async () => {
+      seen = true;
+      await draw();
+      plot.on("plotly_click", (event) => {
+        const id = event.points[0].customdata;
+        if (id) { location.hash = "case=" + id; }
+      });
     });
   }
   return { start };

@@ -2,6 +2,7 @@
 "use strict";
 const TV = {};
 TV.data = JSON.parse(document.getElementById("data").textContent);
+document.getElementById("data").remove();
 TV.element = function (name, attributes, ...children) {
   const node = document.createElement(name);
   for (const [key, value] of Object.entries(attributes || {})) {
@@ -10,16 +11,50 @@ TV.element = function (name, attributes, ...children) {
   for (const child of children) { node.append(child); }
   return node;
 };
+/* Text out of base64 of a raw deflate stream. */
+TV.inflate = async function (packed) {
+  const bytes = Uint8Array.from(atob(packed), (sign) => sign.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Response(stream).text();
+};
+/* The plotting library is inflated when a chart is first needed; the page's policy knows its digest. */
+TV.plotly = function () {
+  if (!TV.plotlyLoaded) {
+    const packed = document.getElementById("plotly");
+    TV.plotlyLoaded = TV.inflate(packed.textContent).then((text) => {
+      const script = document.createElement("script");
+      script.textContent = text;
+      document.head.append(script);
+      script.remove();
+      packed.remove();
+      return window.Plotly;
+    });
+  }
+  return TV.plotlyLoaded;
+};
+/* Run something once an element comes near the window. */
+TV.near = function (element, run) {
+  if (!element) { return; }
+  const watch = new IntersectionObserver((entries) => {
+    if (entries.some((entry) => entry.isIntersecting)) { watch.disconnect(); run(); }
+  }, { rootMargin: "600px 0px" });
+  watch.observe(element);
+};
+TV.color = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+TV.dark = window.matchMedia("(prefers-color-scheme: dark)");
+/* Black lines are drawn in the ink of the page, so that they are seen on a dark one. */
+TV.ink = (color) => (color === "#000000" ? TV.color("ink") : color);
 TV.layout = function (extra) {
   return Object.assign({
-    font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: "#1b1f24" },
-    paper_bgcolor: "#fff", plot_bgcolor: "#fff", margin: { l: 62, r: 12, t: 34, b: 44 },
-    legend: { orientation: "h", x: 0, y: -0.13, yanchor: "top" }, hoverlabel: { font: { size: 12 } },
+    font: { family: getComputedStyle(document.body).fontFamily, size: 13, color: TV.color("ink") },
+    paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", margin: { l: 62, r: 12, t: 34, b: 44 },
+    legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" }, modebar: { orientation: "v" },
+    hoverlabel: { font: { size: 12, color: TV.color("ink") }, bgcolor: TV.color("paper"), bordercolor: TV.color("rule") },
   }, extra);
 };
 TV.axis = function (title, extra) {
-  return Object.assign({ title: { text: title, standoff: 8 }, showline: true, linecolor: "#57606a", ticks: "outside", tickcolor: "#57606a",
-    gridcolor: "#e6e9ec", zeroline: true, zerolinecolor: "#9aa3ab", automargin: true }, extra);
+  return Object.assign({ title: { text: title, standoff: 8 }, showline: true, linecolor: TV.color("muted"), ticks: "outside",
+    tickcolor: TV.color("muted"), gridcolor: TV.color("rule"), zeroline: true, zerolinecolor: TV.color("muted"), automargin: true }, extra);
 };
 /* Ticks at 1, 2 and 5 times powers of ten, written out. */
 TV.logTicks = function (low, high) {
@@ -34,3 +69,7 @@ TV.coarse = window.matchMedia("(pointer: coarse)").matches;
 TV.config = { displaylogo: false, responsive: true, showSendToCloud: false, plotlyServerURL: "",
   modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d", "sendChartToCloud"],
   toImageButtonOptions: { format: "svg" }, locale: "en" };
+TV.draw = async function (id, traces, layout) {
+  const plotly = await TV.plotly();
+  await plotly.react(id, traces, layout, TV.config);
+};
