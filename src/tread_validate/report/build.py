@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..compare.rig_peaks import rig_peaks
-from ..compare.told import NOTHING
 from ..files import write_text
 from ..palette import looks
 from ..study import load_study
