@@ -232,7 +232,7 @@ class _Resolver:
 
     def _with_labels(self, block: KeywordBlock) -> KeywordBlock:
         """Replace ``INSTANCE.7`` in data lines and parameters by the label that it is in the flat deck."""
-        if block.keyword in ("NODE", "ELEMENT", "HEADING"):
+        if block.keyword in ("NODE", "HEADING"):
             return block
         bases = {name: first for first, name in self.instances if name}
 

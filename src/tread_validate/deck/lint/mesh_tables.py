@@ -145,7 +145,7 @@ def _element_lines(block: KeywordBlock, kind: str, count: int, findings: Finding
     pending: list[int] = []
     start = 0
     for row, line in enumerate(block.data):
-        fields = [text for text in line.fields if text]
+        fields = [text or "0" for text in line.fields]  # an end left out is the ground
         if not all(is_label(text) for text in fields):
             findings.add(line, "bad-element", f"*ELEMENT: {line.text[:40]}: expected whole numbers of up to 9 digits")
             pending = []

@@ -56,7 +56,8 @@ def _amplitude(block: KeywordBlock, findings: Findings) -> Pairs:
             continue
         for time, value in zip(fields[::2], fields[1::2], strict=True):
             if pairs and number(time) <= pairs[-1][0]:
-                findings.add(line, "amplitude", f"*AMPLITUDE: time {time} does not come after {pairs[-1][0]:g}")
+                text = f"*AMPLITUDE: time {time} does not come after {pairs[-1][0]:g}"
+                findings.add(line, "amplitude", text, "warning" if number(time) == pairs[-1][0] else None)
                 return pairs
             pairs.append((number(time), number(value)))
     if len(pairs) < 2:
