@@ -22,9 +22,13 @@ report: $(BIN)/.installed ## Set up, run STUDY and write reports/<its name>/inde
 	@$(SNAKEMAKE)
 	@$(BIN)/tread-validate verdict $(STUDY)
 
-check: $(BIN)/.installed ## The same without the report; 1 where the baseline moved or a verdict flipped, 3 without anything compared
+check: $(BIN)/.installed ## The same without the report; 1 where the baseline moved or a verdict flipped, 3 without anything compared; of one model or some cases alone with MODEL=paper, CASES="ID ID"
+ifeq ($(strip $(MODEL)$(CASES)),)
 	@$(SNAKEMAKE) checked
 	@$(BIN)/tread-validate verdict $(STUDY) --gate
+else
+	@$(BIN)/tread-validate check-model $(STUDY) $(MODEL:%=--model %) $(CASES:%=--case %) --jobs $(CORES) $(if $(filter 1,$(TRUST_MODELS)),--trust-models)
+endif
 
 test: $(BIN)/.installed-dev system-packages lint ## Set up, then check style, types, layers and workflow, and run the tests
 	@$(BIN)/pytest -m "not heavy" -n $(CORES) --dist worksteal -q

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import importlib.util
+import json
+import math
 import shutil
 import sys
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 import yaml
+
+from tread_validate.compare.tables import Delta, Ensemble, MetricRow, read_rows
+from tread_validate.history import History
 
 HERE = Path(__file__).parent
 
@@ -149,3 +155,75 @@ def test_a_record_that_contradicts_its_folder_is_named(small: Any) -> None:
     done = small.run("tread-validate", "references", "reference_data")
     record.write_text(text, encoding="utf-8")
     assert f"{folder.name}: corrupt, record.yaml: engine abaqus, but the folder is embedded's" in done.stdout
+
+
+def _blind_model(small: Any) -> str:
+    """A model of the references' own histories with 5 % more normal and 3 N less tangential force; returns a study."""
+    study = small.folder / "config" / "blind.yaml"
+    data = yaml.safe_load((small.folder / "config" / "study.yaml").read_text(encoding="utf-8"))
+    listed = small.run("tread-validate", "case", "config/study.yaml", "--all", "-o", "cases")
+    assert listed.returncode == 0, listed.stderr
+    (small.folder / "blind").mkdir()
+    for folder in (small.folder / "reference_data" / "fe" / "embedded").iterdir():
+        history = History.read_csv(folder / "history.csv")
+        name = yaml.safe_load((folder / "record.yaml").read_text(encoding="utf-8"))["case_id"]
+        digest = json.loads((small.folder / "cases" / f"{name}.json").read_text(encoding="utf-8"))["case_digest"]
+        loaded = history.normal_force > 3.0
+        biased = History.of(history.time, 1.05 * history.normal_force, history.tangential_force - 3.0 * loaded)
+        biased.with_provenance({"case_digest": digest}).write_csv(small.folder / "blind" / f"{name}.csv")
+    data["models"] = {
+        "blind": {
+            "kind": "histories",
+            "description": "the references with a known bias",
+            "origin": "this test",
+            "folder": "blind",
+        }
+    }
+    study.write_text(yaml.safe_dump(data, sort_keys=False), encoding="utf-8")
+    return "config/blind.yaml"
+
+
+def test_bias_of_a_blind_model_comes_out_of_the_tables_as_it_was_put_in(small: Any) -> None:
+    """+5 % N, -3 N T, beside the paper's model, which has not moved; the blind one has no baseline yet."""
+    done = small.run("tread-validate", "check-model", _blind_model(small), "--model", "paper", "--model", "blind")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "baseline: none accepted yet of model:blind" in done.stdout
+    assert "all within noise of the baseline" in done.stdout
+    tables = small.folder / "results" / "small" / "model_check" / "tables"
+    rows = [row for row in read_rows(tables / "errors.csv", MetricRow) if row.predicted_source == "model:blind"]
+    normal = [row for row in rows if (row.quantity, row.metric) == ("peak_normal_force", "scalar")]
+    assert [row.error for row in normal] == pytest.approx([0.05, 0.05], abs=2e-6)
+    assert all(row.passed for row in normal)
+    for quantity in ("peak_positive_tangential_force", "peak_negative_tangential_force"):
+        shifted = [row for row in rows if (row.quantity, row.metric) == (quantity, "scalar")]
+        assert [row.predicted - row.reference for row in shifted] == pytest.approx([-3.0, -3.0], abs=1e-4)
+    (whole,) = [
+        row
+        for row in read_rows(tables / "ensemble.csv", Ensemble)
+        if (row.predicted_source, row.group, row.quantity, row.metric)
+        == ("model:blind", "all", "peak_normal_force", "scalar")
+    ]
+    assert whole.total_scatter == pytest.approx(0.0, abs=2e-6)
+    assert whole.bias == pytest.approx(1.05 * math.exp(-0.5 * whole.reference_scatter**2), abs=1e-5)
+
+
+def test_loop_of_a_model_tells_of_the_cases_asked_for_alone(small: Any) -> None:
+    """One case of an edited model: it moved, nothing else is called missing; exit code, Markdown and JUnit."""
+    file, case = "spring/run.py", "rig-rectangle-22c-0p2mm-450rpm"
+    text = small.edit(file, "np.where(touches, normal, 0.0)", "np.where(touches, 1.01 * normal, 0.0)")
+    done = small.run("tread-validate", "check-model", "config/study.yaml", "--model", "paper", "--case", case)
+    small.restore(file, text)
+    assert done.returncode == 1, done.stdout + done.stderr
+    place = small.folder / "results" / "small" / "model_check"
+    markdown = (place / "check.md").read_text(encoding="utf-8")
+    assert len(markdown.splitlines()) < 50
+    assert "| moved |" in markdown
+    assert "600rpm" not in markdown
+    assert "missing" not in done.stdout + markdown
+    suites = {suite.get("name"): suite for suite in ElementTree.parse(place / "junit.xml").getroot()}
+    assert suites["numbers"].get("failures") != "0"
+    moved = read_rows(place / "delta.csv", Delta)
+    assert {row.case_id for row in moved} == {case}
+    kinds = [row.kind for row in moved if not row.passed]
+    order = ["flip", "rule", "input", "run", "consequence"]
+    assert kinds == sorted(kinds, key=order.index)

@@ -39,6 +39,7 @@ VERBS = {
     "tables": "tables",
     "report": "report",
     "check": "check",
+    "check-model": "check_model",
     "accept": "accept",
     "verdict": "verdict",
     "ladder": "ladder",

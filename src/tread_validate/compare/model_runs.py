@@ -18,13 +18,15 @@ def model_source(name: str) -> str:
     return f"model:{name}"
 
 
-def model_runs(study: LoadedStudy, cases: Sequence[Case], folder: Path) -> dict[tuple[str, str], SourceRun]:
-    """Read every run of every model that the study names; nothing of theirs is executed.
+def model_runs(
+    study: LoadedStudy, cases: Sequence[Case], folder: Path, names: Sequence[str] | None = None
+) -> dict[tuple[str, str], SourceRun]:
+    """Read every run of every model that the study names, or of some; nothing of theirs is executed.
 
     Statuses are those of `SourceRun`, and ``failed``: the model ran on the case and gave no history of it.
     """
     runs: dict[tuple[str, str], SourceRun] = {}
-    for name in study.model.models:
+    for name in study.model.models if names is None else names:
         source, code = model_source(name), code_of(study, name)
         for case in cases:
             runs[source, case.case_id] = _run(source, case, folder / name / case.case_id, code)

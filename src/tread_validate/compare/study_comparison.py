@@ -15,8 +15,9 @@ from ..units import IN_MM
 from .claims.claim import Claim, Evidence
 from .claims.published import published_claims
 from .input_spread import input_spreads
-from .model_runs import model_runs, model_source
+from .model_runs import model_runs
 from .numerical import numerical_uncertainties
+from .part import Part
 from .quantities import Tolerances, tolerances
 from .regression.coefficients import computed_regression, published_coefficients
 from .regression.differences import differences
@@ -56,16 +57,19 @@ def compare_study(
     decks_dir: Path,
     exclude: Sequence[float] = EXCLUDED_INTERFERENCES,
     models_dir: Path | None = None,
+    part: Part | None = None,
 ) -> Comparison:
-    """Compare every run of a study with its reference, and the study with the paper.
+    """Compare every run of a study with its reference, and the study with the paper; or a part of that.
 
-    The histories of the user's own models lie in `models_dir`, beside `spring_dir` where it is None.
+    The histories of the user's own models lie in `models_dir`, beside `spring_dir` where it is None. What a part leaves
+    out is not read; numerical uncertainties, those of a path and a block, are of the whole study all the same.
     """
-    variants = loaded.model.spring.variants
-    cases = _resolved(loaded.cases())
+    whole = Part(tuple(loaded.model.spring.variants), tuple(loaded.model.models))
+    variants, models, sources = (part or whole).variants, (part or whole).models, (part or whole).sources
+    every = _resolved(loaded.cases())
+    cases = every if part is None else part.chosen(every)
     runs = spring_runs(cases, spring_dir, variants)
-    runs |= model_runs(loaded, cases, models_dir or spring_dir.parent / "models")
-    sources = [f"spring:{variant}" for variant in variants] + [model_source(name) for name in loaded.model.models]
+    runs |= model_runs(loaded, cases, models_dir or spring_dir.parent / "models", models)
     references = []
     for engine in engines(reference_dir, loaded.model.engine):
         runs |= fe_runs(cases, reference_dir, engine, decks_dir)
@@ -73,7 +77,7 @@ def compare_study(
     rig = rig_peaks(reference_dir, cases)
     runs |= rig_runs(rig)
     judged = tolerances(loaded.model.tolerances, loaded.source)
-    runs = _with_numerical(cases, runs, variants)
+    runs = _with_numerical(every, runs, variants)
     rows = _metric_rows(cases, runs, sources, references, judged)
     rows += rig_rows(
         cases,
@@ -87,10 +91,14 @@ def compare_study(
     coefficients = list(published_coefficients(published))
     residuals: list[Residual] = []
     measured = [MEASURED] if measured_means(rig) else []
-    for source in (*measured, *references, *sources):
+    # coefficients and statements are of all cases or of none
+    complete = part is None or part.case_ids is None
+    for source in (*measured, *references, *sources) if complete else ():
         regression = computed_regression(cases, runs, source, exclude)
         coefficients += regression.coefficients
         residuals += regression.residuals
+    if part is not None:
+        coefficients = part.coefficients(coefficients, (*measured, *references, *whole.sources, *sources))
     tests = differences(coefficients)
     evidence = Evidence(
         study=loaded,
@@ -112,8 +120,8 @@ def compare_study(
         coefficients=tuple(coefficients),
         residuals=tuple(residuals),
         differences=tests,
-        claims=published_claims(evidence, [*sources, *references]),
-        sensitivity=_sensitivity(cases, runs, sources, references),
+        claims=published_claims(evidence, [*sources, *references] if part is None else sources) if complete else (),
+        sensitivity=_sensitivity(cases, runs, sources, references) if part is None else (),
         tolerances=judged,
     )
 
@@ -133,8 +141,8 @@ def _with_numerical(cases: Sequence[Case], runs: Runs, variants: Sequence[str]) 
     for variant in variants:
         known: dict[tuple[str, str], Mapping[str, float]] | None = None
         for case in cases:
-            run = runs[f"spring:{variant}", case.case_id]
-            if run.history is None:
+            run = runs.get((f"spring:{variant}", case.case_id))
+            if run is None or run.history is None:
                 continue
             if known is None:
                 known = numerical_uncertainties(cases, variant)

@@ -96,10 +96,10 @@ def tell(tables: Path, baseline: Path) -> Told:
             counts[row.status] = counts.get(row.status, 0) + 1
     models = dict.fromkeys(row.predicted_source for row in errors if not row.predicted_source.startswith("fe:"))
     compared = any(row.error is not None for row in errors)
-    return Told(references, tuple(_model(model, errors) for model in models), compared, *_baseline(tables, baseline))
+    return Told(references, tuple(summed_up(model, errors) for model in models), compared, *_baseline(tables, baseline))
 
 
-def _model(model: str, errors: Sequence[MetricRow]) -> ModelTold:
+def summed_up(model: str, errors: Sequence[MetricRow]) -> ModelTold:
     """Sum up one model against the first reference that has anything to compare with."""
     own = [row for row in errors if row.predicted_source == model and row.error is not None]
     for reference in dict.fromkeys(row.reference_source for row in own):
