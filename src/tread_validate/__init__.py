@@ -23,6 +23,7 @@ _DOOR = {
     "TreadBlock": "spring.stepping",
     "compare": "api",
     "load_study": "api",
+    "report": "api",
     "run": "api",
     "run_fe": "api",
     "write_deck": "api",

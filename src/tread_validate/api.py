@@ -168,3 +168,44 @@ def compare(reference: History, predicted: History, *, uncertainty: float | None
             )
         )
     )
+
+
+def report(
+    study: LoadedStudy | Path | str,
+    out: Path | str | None = None,
+    *,
+    root: Path | str = ".",
+    references: Path | str | None = None,
+) -> Path:
+    """Compare the runs of a study as they lie in its workspace and write the report; returns the page.
+
+    Nothing is run: a model or a reference without a run is said to be missing.
+
+    Parameters
+    ----------
+    study : LoadedStudy or path
+    out : path, optional
+        Folder for ``index.html``, ``report.pdf``, ``tables/``, ``figures/``; ``reports/<study>`` below `root` if left
+        out.
+    root : path
+        The folder that holds ``fe_inputs``, ``results`` and ``reports``.
+    references : path, optional
+        The reference data package; ``reference_data`` below `root` if left out.
+
+    Raises
+    ------
+    InputError
+        For a study or a reference package that cannot be read.
+    """
+    from .compare import build_tables
+    from .report import build_report
+    from .workspace import Workspace
+
+    file = Path(study) if isinstance(study, str | Path) else study.source
+    name = load_study(file).model.name
+    place = Workspace(name, Path(root))
+    data = Path(root) / "reference_data" if references is None else Path(references)
+    target = place.reports if out is None else Path(out)
+    build_tables(file, place.spring, data, place.tables, place.decks)
+    build_report(file, place.tables, place.spring, data, place.decks, target, ladder_dir=data / "ladder" / name)
+    return target / "index.html"

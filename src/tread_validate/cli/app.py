@@ -42,6 +42,7 @@ VERBS = {
     "check-model": "check_model",
     "accept": "accept",
     "verdict": "verdict",
+    "badge": "badge",
     "ladder": "ladder",
     "map": "map",
     "fit-prony": "fit_prony",

@@ -12,9 +12,7 @@ def command(
     study: Annotated[Path, typer.Argument(help="study file (YAML)")],
     model: Annotated[
         list[str] | None,
-        typer.Option(
-            "--model", help="spring variant, or model of the study; repeatable; all if left out"
-        ),
+        typer.Option("--model", help="spring variant, or model of the study; repeatable; all if left out"),
     ] = None,
     case: Annotated[
         list[str] | None, typer.Option("--case", help="id of one case; repeatable; all if left out")

@@ -23,6 +23,7 @@ from .model_runs import model_runs, model_source
 from .part import Part, part_of
 from .runs import spring_runs
 from .study_comparison import Comparison, compare_study
+from .summary import write_summary
 
 WRITTEN_FOR = "written_for.txt"
 
@@ -111,8 +112,9 @@ def check_models(
         tuple(name for name in part.models if model_source(name) in known),
         part.case_ids,
     )
-    check = check_tables(accepted, tables, narrowed.holds)
-    return ModelCheck(part, found, known, check, movements(accepted, tables), accepted.acceptance)
+    check, moved = check_tables(accepted, tables, narrowed.holds), movements(accepted, tables)
+    write_summary(tables, study.model.name, check, moved)
+    return ModelCheck(part, found, known, check, moved, accepted.acceptance)
 
 
 def _known(part: Part, accepted: Baseline | None) -> tuple[str, ...]:
