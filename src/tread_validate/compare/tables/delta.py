@@ -10,6 +10,7 @@ from .row import Column, Row, column, table_row
 from .runs import SOURCE
 
 Outcome = Literal["within", "moved", "new", "missing", "stale", "changed"]
+OF_ERROR = ("error", "u_numerical", "u_input", "u_data", "uncertainty", "tolerance")
 PLACES = ("source", "reference_source", "case_id", "quantity", "metric")
 
 
@@ -63,7 +64,8 @@ class Delta(Row):
         times = None
         if change is not None and width > 0.0:
             times = abs(change) / width
-        unit = found.unit or (cells.get("unit", "") if found.kind == "number" else "")
+        fraction = found.name in OF_ERROR and cells.get("error_type") == "relative"
+        unit = found.unit or (cells.get("unit", "") if found.kind == "number" and not fraction else "")
         return cls(
             outcome, kind, table, _key(table, cells), *_place(cells), found.name, unit, a, b, change, width, times,
             outcome == "within", note,
