@@ -30,7 +30,7 @@ def command(
     page: Annotated[
         str, typer.Option("--page", help="address of the report, for links in check.md [default: the study's page]")
     ] = "",
-    jobs: Annotated[int, typer.Option("--jobs", min=1, help="cases at a time, of a command that runs one")] = 1,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, max=256, help="cases at a time (commands of one case)")] = 1,
     trust_models: Annotated[
         bool, typer.Option("--trust-models", help="run what the study names as command or Python object")
     ] = False,
