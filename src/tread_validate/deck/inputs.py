@@ -77,7 +77,8 @@ def friction_values(law: FrictionLaw) -> tuple[Value, ...]:
 def _derived(
     path: Path, placement: Placement, pass_time: float, speed: Value, interference: Value, creep: Value
 ) -> tuple[Value, ...]:
-    closing, bend = closing_of_gap(path)
+    # few digits: second differences of coordinates have no more that every machine agrees on
+    first, second = (number(value, digits) for value, digits in zip(closing_of_gap(path), (6, 4), strict=True))
     rate = speed.number * (1.0 + creep.number)
     radius = number(path.road.radius * DECK_LENGTH, 10)
     depth, duration = number(interference.number, 10), number(pass_time, 10)
@@ -87,7 +88,7 @@ def _derived(
         Value("lift", 0.0, "rise of the road over the one written for, mm", f"interference - {depth}"),
         Value(
             "sooner", 0.0, "first touch before the one written for, s, at its speed",
-            f"(sqrt({number(closing)}*{number(closing)} + 2.*{number(bend)}*lift) - {number(closing)})/{number(bend)}",
+            f"(sqrt({first}*{first} + 2.*{second}*lift) - {first})/{second}",
         ),
         Value("approach_time", LEAD_IN, "lead-in without contact, s", f"({number(LEAD_IN)} - sooner)*stretch"),
         Value("pass_time", exact(pass_time), "first touch until clear, s", f"({duration} + 2.*sooner)*stretch"),
