@@ -54,12 +54,12 @@ def tried(small: Small, part: str, file: str, old: str, new: str) -> tuple[str, 
         lines = [line for line in (made.stdout + made.stderr).splitlines() if "tread-validate: " in line]
         said = f"stopped: {lines[0].strip()[:110]}" if lines else "stopped"
     else:
-        said = done.stdout.splitlines()[-1].removeprefix("baseline: ")
-    caught = made.returncode != 0 or done.returncode == 1
+        said = done.stdout.splitlines()[-1].removeprefix("baseline: ") + f", exit code {done.returncode}"
+    caught = done.returncode in (1, 3) or made.returncode != 0
     print(f"{'caught' if caught else 'MISSED'} {part} {file}: {said} ({seconds:.0f} s)", flush=True)
     shown = new.strip().replace("|", "\\|")
     return (
-        f"| {part} | `{file}` | `{shown}` | {'yes' if caught else '**no**'} | {said.removesuffix(' (make check)')} |",
+        f"| {part} | `{file}` | `{shown}` | {'yes' if caught else '**no**'} | {said.replace(' (make check)', '')} |",
         caught,
     )
 
@@ -68,9 +68,9 @@ def main() -> int:
     """Run all mutations and write the table; 1 where one was missed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("-o", "--output", type=Path, help="Markdown page to write")
-    parser.add_argument("--only", help="part of the code")
+    parser.add_argument("--only", help="text that a mutation's file must have in it")
     choice = parser.parse_args()
-    chosen = [mutation for mutation in MUTATIONS if choice.only in (None, mutation[0])]
+    chosen = [mutation for mutation in MUTATIONS if choice.only is None or choice.only in mutation[1]]
     with tempfile.TemporaryDirectory(prefix="mutations-") as folder:
         small = prepared(Path(folder))
         found = [tried(small, *mutation) for mutation in chosen]

@@ -62,7 +62,13 @@ def build(
     if "effects" in parts:
         say("what each effect is worth")
         put("effects", effects.COLUMNS, effects.effect_rows(chosen))
-        put("stiffness", effects.THEORY_COLUMNS, [row for case in chosen for row in effects.theory_rows(case)])
+        theory = []
+        for case in chosen:
+            try:
+                theory += effects.theory_rows(case)
+            except InputError as error:
+                say(f"no stiffness by theory for {case.case_id}: {error}")
+        put("stiffness", effects.THEORY_COLUMNS, theory)
     if "published" in parts:
         say("published figures")
         put("published", published.COLUMNS, published.published_rows(cases, references, engine, pareto.RUNGS))

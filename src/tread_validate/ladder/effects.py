@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import InputError, one_line
 from ..friction import coulomb_law
 from ..geometry import path_of
 from ..material import PronySeries, prony_series
@@ -74,12 +75,22 @@ def elastic(case: Case) -> PronySeries:
 
 def effect_rows(cases: Sequence[Case], only: Sequence[str] = ()) -> list[dict[str, Any]]:
     """Return the effects (or those named) on each case, creep ratios known; the rows' columns are `COLUMNS`."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for case in cases:
         for effect, before, after, change in _effects(case):
             if only and effect not in only:
                 continue
-            first, second = change()
+            try:
+                first, second = change()
+            except InputError as error:  # an effect that such a block does not have: said in its row
+                told = {
+                    "case_id": case.case_id,
+                    "effect": effect,
+                    "from": before,
+                    "to": f"{after}: {one_line(str(error))}",
+                }
+                rows.append({**dict.fromkeys(COLUMNS), **told, "assumed": "; ".join(case.assumed())})
+                continue
             entries = (
                 case.case_id, effect, before, after, 100.0 * (second.normal / first.normal - 1.0),
                 100.0 * (second.impulse / first.impulse - 1.0), second.positive - first.positive,

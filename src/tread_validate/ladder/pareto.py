@@ -13,6 +13,7 @@ import numpy as np
 from ..compare import MetricRow, compare
 from ..compare.quantities import Tolerances, tolerances
 from ..compare.runs import Runs
+from ..errors import InputError, one_line
 from ..reference import FeStore
 from ..spring import run
 from ..study import Case
@@ -89,14 +90,20 @@ def case_rows(
     warm: set[tuple[str, str]] = set()
     for rung, case in track([(rung, case) for rung in rungs for case in cases]):
         kind = (rung, f"{case.block_name} {case.path_name}")
-        if kind not in warm:
-            run(case, rung)
-            warm.add(kind)
-        begin = time.process_time()
-        predicted = run(case, rung)
-        seconds = time.process_time() - begin
         reference = references[source, case.case_id]
         assumed = "; ".join(case.assumed())
+        values: tuple[Any, ...]
+        try:
+            if kind not in warm:
+                run(case, rung)
+                warm.add(kind)
+            begin = time.process_time()
+            predicted = run(case, rung)
+        except InputError as error:  # a rung that is not made for such a block: said in its row
+            values = ("not_applicable", *[None] * 9, one_line(str(error)))
+            rows.append(dict(zip(CASE_COLUMNS, (rung, case.case_id, source, *values, assumed), strict=True)))
+            continue
+        seconds = time.process_time() - begin
         if reference.history is None:
             values = (reference.status, seconds, *[None] * 8, reference.note)
         else:
@@ -155,14 +162,15 @@ def pareto_rows(rows: Sequence[Mapping[str, Any]], cases: Sequence[Case]) -> lis
 
 def _sum_up(rung: str, group: str, own: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     kept = [row for row in own if row["status"] == "current"]
-    seconds = float(np.median([row["seconds"] for row in own]))
+    timed = [row["seconds"] for row in own if row["seconds"] is not None]
+    seconds = float(np.median(timed)) if timed else None
     target = TARGETS.get(rung)
     asked = target is not None and group in target.groups
     entries: dict[str, Any] = dict.fromkeys(COLUMNS)
     entries.update(
         rung=rung, group=group, reference=own[0]["reference"], cases=len(own), compared=len(kept),
         seconds_per_pass=seconds, target=target.text() if target is not None and asked else "",
-        note="" if len(kept) == len(own) else f"{len(own) - len(kept)} runs without a current reference",
+        note=_missing(own),
         assumed=own[0]["assumed"],
     )  # fmt: skip
     if not kept:
@@ -222,6 +230,15 @@ def _missed(target: Target, entries: Mapping[str, Any]) -> list[str]:
         if least is not None and not entries[name] > least
     ]
     return missed
+
+
+def _missing(own: Sequence[Mapping[str, Any]]) -> str:
+    """Say which cases of a rung give no error, and why."""
+    refused = [row["note"] for row in own if row["status"] == "not_applicable"]
+    lacking = sum(row["status"] not in ("current", "not_applicable") for row in own)
+    parts = [f"{lacking} runs without a current reference"] if lacking else []
+    parts += [f"{len(refused)} cases that it is not made for ({refused[0]})"] if refused else []
+    return "; ".join(parts)
 
 
 MESH_COLUMNS = (
