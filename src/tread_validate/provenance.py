@@ -35,6 +35,16 @@ def commit() -> str:
     return head[:12] + ("+changes" if changes else "")
 
 
+@cache
+def commit_date() -> str:
+    """Return the day (ISO) of the commit of the code in use, which no run changes; empty outside git."""
+    here = Path(__file__).resolve().parent
+    try:
+        return _git(here, {**os.environ, "GIT_OPTIONAL_LOCKS": "0"}, "log", "-1", "--format=%cs")
+    except (OSError, subprocess.SubprocessError):
+        return ""
+
+
 def version() -> str:
     """Return the package version."""
     return __version__

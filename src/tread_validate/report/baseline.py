@@ -5,24 +5,34 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..compare.tables import Delta, read_rows
+from ..compare.baseline.movement import Movement, movements
+from ..compare.baseline.store import load_baseline
+from ..compare.baseline.trend import read_trend
+from ..compare.quantities import HEADLINE
+from ..compare.tables import Delta, TrendRow, read_rows
 from . import wording
 from .content import Cell, Column, Item, Paragraph, Row, Section, Table, Tone
 from .marks import Marks
 
 TITLE = "Change since the accepted baseline"
 KINDS = {
-    "flip": "Verdicts that flipped",
-    "rule": "What verdicts rest on",
+    "flip": "Assessments that flipped",
+    "rule": "What assessments depend on",
     "input": "Inputs",
     "run": "Runs that moved",
     "consequence": "What follows from them",
 }
-LIMIT = 400
+LIMIT = 60
 
 
-def baseline_section(delta: Path | None, marks: Marks) -> tuple[Section, tuple[Tone, str] | None]:
-    """Return the section, and for the summary a tone and a sentence (None where no check was made)."""
+def baseline_section(
+    delta: Path | None, marks: Marks, tables: Path | None = None, accepted: Path | None = None
+) -> tuple[Section, tuple[Tone, str] | None]:
+    """Return the section, and for the summary a tone and a sentence (None where no check was made).
+
+    `tables` are those of today and `accepted` is the baseline's folder: where both are there, better and worse are
+    counted by model and quantity, and the headline errors of every accepted baseline are listed.
+    """
     if delta is None or not delta.is_file():
         words = "No check against a baseline was made for this report; the command “tread-validate check” makes one."
         return Section("baseline", TITLE, (Paragraph(words),)), None
@@ -30,17 +40,23 @@ def baseline_section(delta: Path | None, marks: Marks) -> tuple[Section, tuple[T
     failed = [row for row in rows if not row.passed]
     outcome: tuple[Tone, str] = ("good", "No number and no word differs from the baseline beyond its noise.")
     if failed:
-        flips = sum(row.kind == "flip" for row in failed)
+        count = sum(row.kind == "flip" for row in failed)
         places = len({(row.in_table, row.row_key) for row in failed})
-        words = f"{wording.plural(flips, 'verdict')} flipped; " if flips else "No verdict flipped; "
+        words = f"{wording.plural(count, 'assessment')} flipped; " if count else "No assessment flipped; "
         outcome = ("bad", f"{words}{wording.plural(places, 'row')} moved beyond noise, or are new, missing or stale.")
     items: list[Item] = [Paragraph(outcome[1])]
-    if rows:
-        items.append(_table(rows))
+    flips = [row for row in failed if row.kind == "flip"]
+    if flips:
+        items.append(_table(flips, "flips", "Assessments that flipped"))
+    if tables is not None and accepted is not None and (accepted / "baseline.yaml").is_file():
+        items += [_movements(movements(load_baseline(accepted), tables)), *_trend(read_trend(accepted))]
+    others = [row for row in rows if row.passed or row.kind != "flip"]
+    if others:
+        items.append(_table(others, "delta", "Cells that are not what they were"))
     return Section("baseline", TITLE, tuple(items)), outcome
 
 
-def _table(rows: Sequence[Delta]) -> Table:
+def _table(rows: Sequence[Delta], key: str, title: str) -> Table:
     columns = (
         Column("What happened"),
         Column("Where", wide=True),
@@ -51,7 +67,55 @@ def _table(rows: Sequence[Delta]) -> Table:
     )
     lines = tuple(_line(row) for row in rows[:LIMIT])
     caption = f"First {LIMIT} of {len(rows)} rows." if len(rows) > LIMIT else ""
-    return Table("delta", "Every cell that is not what it was", columns, lines, caption)
+    return Table(key, title, columns, lines, caption, folded=key == "delta", csv="delta.csv")
+
+
+def _movements(found: Sequence[Movement]) -> Table:
+    """Return better and worse by model and quantity, those that got worse in most cases first."""
+    rows = []
+    for item in found:
+        kind = "absolute" if item.unit != "1" else ("score" if item.metric == "iso18571_r" else "relative")
+        before, now = (wording.size(value, kind, item.unit) for value in (item.before, item.now))
+        cells = (
+            Cell(wording.source(item.predicted_source)),
+            Cell(wording.quantity(item.quantity, item.metric)),
+            Cell(f"{item.better}", sort=item.better),
+            Cell(f"{item.worse}", sort=item.worse, tone="bad" if item.worse > item.better else ""),
+            Cell(item.case_id, case=item.case_id),
+            Cell(before, sort=item.before, kind=item.unit),
+            Cell(now, sort=item.now, kind=item.unit),
+        )
+        rows.append(Row(cells))
+    columns = (
+        Column("Model"), Column("Quantity", wide=True), Column("Better", "cases", numeric=True),
+        Column("Worse", "cases", numeric=True), Column("Moved most"), Column("|E| before", numeric=True),
+        Column("|E| now", "of that case", numeric=True),
+    )  # fmt: skip
+    return Table(
+        "movements", "Better and worse, by model and quantity", columns, tuple(rows), empty="Nothing moved.",
+        help="Cases whose |E| fell or grew by more than its noise; errors of scores are 1 − R.",
+    )  # fmt: skip
+
+
+def _trend(rows: Sequence[TrendRow]) -> list[Table]:
+    """Return the mean peak normal force error of every accepted baseline."""
+    own = [row for row in rows if (row.quantity, row.metric) == HEADLINE[0]]
+    lines = [
+        Row(
+            (
+                Cell(row.when[:10]), Cell(row.commit), Cell(wording.source(row.predicted_source)),
+                Cell(f"{row.compared}", sort=row.compared), Cell(wording.percent(row.mean_abs_error)),
+                Cell(wording.percent(row.largest_abs_error)), Cell(row.reason),
+            )
+        )
+        for row in own
+    ]  # fmt: skip
+    columns = (
+        Column("Accepted"), Column("Code"), Column("Model"), Column("Cases", numeric=True),
+        Column("Mean |E|", "peak N", numeric=True), Column("Worst |E|", numeric=True), Column("Why", wide=True),
+    )  # fmt: skip
+    title = "Headline errors of every accepted baseline"
+    return [Table("trend", title, columns, tuple(lines), folded=True)] if lines else []
 
 
 def _line(row: Delta) -> Row:
@@ -59,7 +123,7 @@ def _line(row: Delta) -> Row:
     unit = wording.unit(row.unit)
     cells = (
         Cell(row.outcome, tone="" if row.passed else "bad", note=row.note),
-        Cell(name),
+        Cell(name, case=row.case_id if row.in_table in ("errors", "peaks") else ""),
         Cell(row.in_column.replace("_", " ") or "whole row"),
         Cell(f"{row.baseline or '–'} {unit if row.baseline else ''}".strip()),
         Cell(f"{row.current or '–'} {unit if row.current else ''}".strip()),

@@ -15,6 +15,7 @@ from .baseline import baseline_section
 from .cases import case_views
 from .claims import claims_table
 from .content import Item, Paragraph, Report, Section
+from .discussion import discussion_section, method_section
 from .error_charts import heatmap, scatter
 from .extra import ladder_section, mesh_table
 from .figures import figure_items
@@ -95,8 +96,8 @@ def build_report(
     )
     report = compose(Path(study_path), places)
     write_text(places.out / "index.html", render(report))
-    write_pdf(report, places.out / "report.pdf")
     _copy_tables(places)
+    write_pdf(report, places.out / "report.pdf", places.out / "tables")
     return report
 
 
@@ -115,7 +116,7 @@ def compose(study_path: Path, places: Places) -> Report:
     drawn = figures.Studio(
         study, tables, views, histories, look, marks, places.decks, places.reference, places.out / "figures", rig
     )
-    delta, moved = baseline_section(places.baseline_delta, marks)
+    delta, moved = baseline_section(places.baseline_delta, marks, places.tables, places.out / "baseline")
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
     results += [table for table in (mesh_table(places.reference), sensitivity) if table is not None]
@@ -126,6 +127,7 @@ def compose(study_path: Path, places: Places) -> Report:
     notes = tuple(Paragraph(text, tone="mute") for text in study.model.notes)
     sections = [
         Section("summary", "How far can the models be trusted?", (screen, Paragraph(CAVEAT), *notes)),
+        method_section(),
         Section("results", "Results", tuple(results)),
         Section(
             "table1",
@@ -133,6 +135,7 @@ def compose(study_path: Path, places: Places) -> Report:
             (table1(tables, marks), *figure_items(drawn.regressions()), differences_table(tables, marks)),
         ),
         Section("claims", "Published statements", (claims_table(tables, marks),)),
+        discussion_section(tables, marks),
         Section("cases", "Case browser", (browse,), page_only=True),
         Section("heatmaps", "Errors over the test matrix", (heat, *figure_items(drawn.heat(), pdf=True))),
         Section("scatter", "Predicted against reference", (points, *figure_items(drawn.scatter(), pdf=True))),
@@ -160,3 +163,5 @@ def _copy_tables(places: Places) -> None:
     target.mkdir(parents=True, exist_ok=True)
     for path in sorted(places.tables.glob("*.csv")):
         shutil.copyfile(path, target / path.name)
+    if places.baseline_delta is not None and places.baseline_delta.is_file():
+        shutil.copyfile(places.baseline_delta, target / "delta.csv")

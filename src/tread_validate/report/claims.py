@@ -15,7 +15,7 @@ NOTHING = 1e-4  # less than the last digit of any published number, in its unit
 # what agreement with a published statement is worth, by the claims' `kind`
 CLAIM_GROUPS = {
     "model": "Predicted by a model, compared with the paper",
-    "tuned": "Met because the stand-in compound was made to meet it",
+    "tuned": "Met because the surrogate compound was made to meet it",
     "study": "Follows from the study's inputs alone",
     "published": "Published numbers against each other",
     "input": "Taken over as an input",
@@ -41,7 +41,7 @@ def claims_table(tables: Tables, marks: Marks) -> Table:
         Column("From the study or the paper", wide=True),
     )
     lines = tuple(_line(kind, members, sources, marks) for (kind, _), members in ordered)
-    caption = "Under each value its verdict and its error, in per cent or in the unit."
+    caption = "Under each value its assessment and its error, in per cent or in the unit."
     return Table(
         "claims",
         "What the paper states, and what is found here",
@@ -71,7 +71,7 @@ def _line(kind: str, members: list[ClaimRow], sources: list[str], marks: Marks) 
         Cell(first.section),
         Cell(first.statement[:1].upper() + first.statement[1:]),
         value_cell(first.published, stated, note=bounds),
-        Cell(wording.unit(first.unit)),
+        Cell(wording.unit(first.unit) or "–"),
         *(_found(by_source.get(name)) for name in sources),
         _other(others),
     )
@@ -82,7 +82,7 @@ def _line(kind: str, members: list[ClaimRow], sources: list[str], marks: Marks) 
 def _found(row: ClaimRow | None) -> Cell:
     """Return a source's value with its verdict, error and note; nothing where the source has no part in it."""
     if row is None:
-        return Cell("")
+        return Cell("–", tone="mute")
     verdict = verdict_cell(row.verdict, row.note, row.status)
     parts = [verdict.text, _error(row.error, row.error_type) if row.error is not None else "", verdict.note]
     note = "; ".join(part for part in parts if part)
@@ -98,7 +98,7 @@ def _other(members: list[ClaimRow]) -> Cell:
             texts.append(f"{cell.text} ({wording.source(row.source)})" if row.source else cell.text)
         notes.append(cell.note)
     tone = _found(members[0]).tone if members else ""
-    return Cell("; ".join(texts), tone=tone, note="; ".join(dict.fromkeys(note for note in notes if note)))
+    return Cell("; ".join(texts) or "–", tone=tone, note="; ".join(dict.fromkeys(note for note in notes if note)))
 
 
 def _computed(value: float | None) -> str:

@@ -46,7 +46,7 @@ def heatmap(tables: Tables, views: tuple[CaseView, ...], marks: Marks) -> tuple[
                 for row, value in found
                 if pair_of(row) == pair
             }
-            names = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
+            names = f"{wording.source(pair[0])} compared with {wording.source(pair[1])}"
             choices.setdefault(names, []).append((len(data), wording.quantity(quantity, metric)))
             low, high = _scale_ends(own[0], limits)
             data.append({"cells": cells, "lowText": low, "highText": high})
@@ -123,7 +123,7 @@ def scatter(
             look = looks[pair[0]]
             series.append(
                 {
-                    "label": wording.source(pair[0]) + (f" against {wording.source(pair[1])}" if several else ""),
+                    "label": wording.source(pair[0]) + (f" compared with {wording.source(pair[1])}" if several else ""),
                     "ids": [case for case, _, _ in points],
                     "labels": [_escape(labels.get(case, case)) for case, _, _ in points],
                     "x": [_rounded(x) for _, x, _ in points],
@@ -135,7 +135,9 @@ def scatter(
                 }
             )
         choices.append(wording.quantity(quantity))
-        data.append({"unit": own[0].unit, "series": series})
+        spreads = [row.reference_scatter for row in tables.ensemble if (row.group, row.quantity) == ("all", quantity)]
+        reference = max((value for value in spreads if value is not None), default=None)
+        data.append({"unit": own[0].unit, "series": series, "reference": reference})
     assumed = marks.of_column(row.assumed for row in scalars)
     return Widget("scatter", {"choices": choices, "marks": assumed}), data
 

@@ -15,7 +15,7 @@ from ..history import History
 from ..units import IN_MS
 from .tables import Tables
 
-SAMPLES = 300  # of one history, in a study of usual size
+SAMPLES = 240  # of one history, in a study of usual size
 BUDGET = 90_000  # samples of all histories together, so that a page of a thousand cases can still be mailed
 FEWEST = 60
 TIME_SCALE = 1e-6  # s: packed times are whole microseconds

@@ -8,7 +8,7 @@ import itertools
 import json
 import re
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -39,13 +39,14 @@ def render(report: Report) -> str:
     environment.filters.update(
         by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri, size=_size
     )
+    data = {**_packed(report.page_data), "figures": _figures(report), "tables": _folded(report, environment)}
     plotly, script = _plotly(), "\n".join(_asset(name) for name in SCRIPTS)
     return (
         environment.get_template("index.html.j2")
         .render(
             report=report,
             style=Markup(_asset("style.css")),
-            data=embed_json({**report.page_data, "figures": _figures(report), "tables": _folded(report, environment)}),
+            data=embed_json(data),
             plotly=deflated(plotly),
             script=Markup(script),
             policy=_policy(plotly, script),
@@ -66,6 +67,13 @@ def deflated(text: str) -> str:
     """Return a text as base64 of its raw deflate stream, as the page inflates it."""
     packer = zlib.compressobj(9, wbits=-15)
     return base64.b64encode(packer.compress(text.encode("utf-8")) + packer.flush()).decode("ascii")
+
+
+def _packed(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the page's data with what its charts need deflated."""
+    return {
+        key: deflated(str(embed_json(value))) if key in ("heat", "scatter") else value for key, value in data.items()
+    }
 
 
 def _figures(report: Report) -> dict[str, str]:

@@ -10,26 +10,31 @@ import json
 import shutil
 import tempfile
 from collections.abc import Sequence
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import typst
 
+from .. import provenance
 from ..errors import EngineError
 from ..files import write_bytes
 from .content import Cell, Column, Figures, FirstScreen, Item, Paragraph, Report, Table
 from .marks import in_words
 
-WIDEST_TABLE = 11  # columns
+WIDEST_TABLE = 12  # columns
+DENSE = 6  # columns: with more, numbers stand without their notes
 LONGEST_WORD = 12  # signs: a longer text may be broken
-LONGEST_TABLE = 260  # rows: the page and the CSV files hold the rest
+LONGEST_TABLE = 24  # rows: the attached CSV files hold the rest
+LEFT_OUT = ("claims",)  # sections whose tables are attached, for they have hundreds of rows
 
 
-def write_pdf(report: Report, path: Path) -> None:
-    """Write the report as a PDF, atomically; raises `EngineError` where typst refuses.
+def write_pdf(report: Report, path: Path, tables: Path | None = None) -> None:
+    """Write the report as a PDF with the CSV tables of a folder attached; raises `EngineError` where typst refuses.
 
-    Fonts are the ones inside the typst wheel and the time of making is left out, so that one input gives one file.
+    It is written atomically. Fonts are the ones inside the typst wheel and its date is that of the code's commit, so
+    that one input gives one file.
     """
     with tempfile.TemporaryDirectory(prefix="tread-report-") as name:
         folder = Path(name)
@@ -39,7 +44,10 @@ def write_pdf(report: Report, path: Path) -> None:
             "title": report.title,
             "subtitle": report.subtitle,
             "stamp": [list(pair) for pair in report.stamp],
+            "author": f"tread_validate {provenance.version()}, code {provenance.commit()}",
+            "date": provenance.commit_date(),
             "sections": _sections(report, folder),
+            "attached": _attached(tables, folder),
         }
         (folder / "data.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8")
         try:
@@ -57,21 +65,26 @@ def write_pdf(report: Report, path: Path) -> None:
 
 
 def _sections(report: Report, folder: Path) -> list[dict[str, Any]]:
-    """Return the sections; tables that the page folds away go to an appendix, so that the rest reads well."""
+    """Return the sections; tables that the page folds away are attached as CSV in their place."""
     found: list[dict[str, Any]] = []
-    appendix: list[dict[str, Any]] = []
     for section in report.sections:
-        if section.page_only:
+        if section.page_only or section.key in LEFT_OUT:
             continue
         items: list[dict[str, Any]] = []
         for item in section.items:
-            folded = isinstance(item, Table) and item.folded
-            (appendix if folded else items).extend(_items(item, folder))
+            if not (isinstance(item, Table) and item.folded):
+                items.extend(_items(item, folder))
         if items:
             found.append({"title": section.title, "items": items})
-    if appendix:
-        found.append({"title": "Appendix: full tables", "items": appendix})
     return found
+
+
+def _attached(tables: Path | None, folder: Path) -> list[str]:
+    """Copy the CSV tables to where typst finds them and return their names."""
+    names = [] if tables is None else sorted(path.name for path in tables.glob("*.csv"))
+    for name in names:
+        shutil.copyfile(Path(tables or folder) / name, folder / name)
+    return names
 
 
 def _items(item: Item, folder: Path) -> list[dict[str, Any]]:
@@ -123,17 +136,20 @@ def _table(table: Table) -> dict[str, Any]:
         legend = "S synthetic, A assumed"
         columns.append({"title": "Depends on", "unit": legend, "numeric": False, "marks": "", "wide": False})
     rows: list[dict[str, Any]] = []
+    dense = len(table.columns) > DENSE
     for group, members in itertools.groupby(table.rows[:LONGEST_TABLE], key=lambda row: row.group):
         if group:
             rows.append({"group": group, "cells": []})
         for row in members:
-            cells = [_cell(cell) for cell in row.cells]
+            shown = zip(row.cells, table.columns, strict=True)
+            # a number's case is a link of the page; here it would be stacked in a narrow cell
+            cells = [_cell(replace(cell, note="") if column.numeric and dense else cell) for cell, column in shown]
             if table.with_marks:
                 cells.append({"text": " ".join(mark.code for mark in row.marks), "note": "", "tone": "mute"})
             rows.append({"group": "", "cells": cells})
     caption = table.caption
     if len(table.rows) > LONGEST_TABLE:
-        caption += f" The first {LONGEST_TABLE} of {len(table.rows)} rows; the rest is in the CSV tables."
+        caption += f" The first {LONGEST_TABLE} of {len(table.rows)} rows; the rest is in {table.csv or 'the page'}."
     return {
         "kind": "table",
         "title": table.title,

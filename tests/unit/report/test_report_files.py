@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 from tread_validate.cli.app import run
 from tread_validate.errors import InputError
 from tread_validate.report import build_report
+from tread_validate.report.figures.style import draw
 from tread_validate.report.html import embed_json
 
 
@@ -86,6 +87,54 @@ def test_pdf_shows_markup_as_text(built: Path, made_up: ModuleType) -> None:
     text = "".join(done.stdout.split())
     assert "".join(made_up.NASTY.split()) in text
     assert "Howfarcanthemodelsbetrusted?" in text
+
+
+def test_pdf_has_few_pages_contents_metadata_and_the_tables_attached(built: Path) -> None:
+    """At most 20 pages; title, author and a date of the code; a bookmark for every section; every table attached."""
+    file = str(built / "report.pdf")
+    told = subprocess.run(["pdfinfo", file], check=True, capture_output=True, text=True, timeout=60).stdout
+    facts = dict(line.split(":", 1) for line in told.splitlines() if ":" in line)
+    assert int(facts["Pages"]) <= 20
+    assert facts["Title"].strip().startswith("Tread-block validation report: ")
+    assert facts["Author"].strip().startswith("tread_validate ")
+    listed = subprocess.run(["pdfdetach", "-list", file], check=True, capture_output=True, text=True, timeout=60).stdout
+    assert {path.name for path in (built / "tables").glob("*.csv")} <= set(re.findall(r": (\S+\.csv)", listed))
+    raw = (built / "report.pdf").read_bytes()
+    assert b"/Outlines" in raw or b"/ObjStm" in raw
+    text = subprocess.run(["pdftotext", file, "-"], check=True, capture_output=True, text=True, timeout=60).stdout
+    assert "Contents" in text
+    assert "Method" in text
+
+
+def test_no_cell_of_a_table_is_empty_or_nan(built: Path) -> None:
+    """Exact: every cell on the page says something; what is not known is a dash."""
+    page = (built / "index.html").read_text(encoding="utf-8")
+    folded = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))["tables"]  # type: ignore[union-attr]
+    inflated = [zlib.decompress(base64.b64decode(text), wbits=-15).decode("utf-8") for text in folded.values()]
+    whole = "".join([page, *inflated])
+    assert re.findall(r"<td[^>]*>\s*</td>", whole) == []
+    assert re.findall(r">\s*(?:nan|NaN|None|true|false)\s*<", whole) == []
+
+
+def test_figure_keeps_its_legend_off_the_data(made_up: ModuleType, tmp_path: Path) -> None:
+    """Exact: a legend's box, however many its entries, lies above the axes' box."""
+    for count in (2, 5, 9):
+        canvas_made: list[Any] = []
+
+        def paint(axes: Any, count: int = count, kept: list[Any] = canvas_made) -> None:
+            for index in range(count):
+                axes.plot([0, 1], [index, index + 1], label=f"source number {index}")
+            axes.set(xlabel="time, ms", ylabel="force, N")
+            axes.legend()
+            kept.append(axes)
+
+        draw(tmp_path, f"figure-{count}", "t", "c", paint)
+        axes = canvas_made[0]
+        figure = axes.get_figure()
+        box = figure.legends[0].get_window_extent()
+        assert box.y0 >= axes.get_window_extent().y1
+        assert box.x1 <= figure.bbox.x1
+        assert axes.get_legend() is None
 
 
 def test_report_says_what_is_missing_or_stale_in_words(built: Path) -> None:

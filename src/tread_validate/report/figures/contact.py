@@ -23,7 +23,7 @@ FACE_COLUMNS = ("x_m", "y_m", "z_m", "pressure_Pa", "traction_x_Pa", "traction_z
 
 
 def read_face(file: Path) -> pd.DataFrame | None:
-    """Read the contact face of an FE run, with ``place_m`` counted from the end that touches first; None without one.
+    """Read the contact face of an FE run, with ``place_m`` from the end that makes contact first; None without one.
 
     Places are those of the undeformed block; the first end to touch has the largest x. The instant is half way
     between the first and the last contact.
@@ -56,12 +56,12 @@ def pressure(
             axes.plot(rows[0] / MM, rows[1] / MPA, color=BLACK, lw=1.0, label="pressure, FE")
             axes.plot(rows[0] / MM, rows[2] / MPA, "--", color=GREY, lw=1.0, label="shear, FE")
         axes.axhline(0.0, color="#57606a", lw=0.7)
-        axes.set(xlabel="distance from the end that touches first, mm", ylabel="traction, MPa")
+        axes.set(xlabel="distance from the end that makes contact first, mm", ylabel="traction, MPa")
         axes.margins(y=0.2)
         axes.legend(ncols=2, loc="upper right")
 
     caption = (
-        f"{label}, {IN_MS * instant:.2f} ms after first touch. Spring (paper): one value an element. "
+        f"{label}, {IN_MS * instant:.2f} ms after first contact. Spring (paper): one value an element. "
         + (f"{engine}: mean over the block's width. " if rows is not None else "")
         + "Shear of the road on the block, positive towards the leading edge."
     )
@@ -87,7 +87,7 @@ def pressure_map(
         if slips.any():
             axes.plot(place[slips], across[slips], ".", ms=3, color=VERMILION, label="slipping")
             axes.legend(loc="upper right", frameon=True)
-        axes.set(aspect="equal", xlabel="distance from the end that touches first, mm", ylabel="across, mm")
+        axes.set(aspect="equal", xlabel="distance from the end that makes contact first, mm", ylabel="across, mm")
         axes.grid(visible=False)
 
     caption = f"{label}. {engine}. Largest value {values.max():.2f} MPa; the scale ends at the 97th percentile."

@@ -18,19 +18,20 @@ from ..content import Mark
 from ..tables import Tables, pair_of, pairs_of
 from .style import Drawn, draw
 
-RAMP = LinearSegmentedColormap.from_list("error", ["#2f7fb5", "#ffffff", "#d9662b"])
+RAMP = LinearSegmentedColormap.from_list("error", ["#80b8de", "#ffffff", "#f29c68"])
 
 
 def heat(
     folder: Path, tables: Tables, views: tuple[CaseView, ...], pair: tuple[str, str], marks: tuple[Mark, ...]
 ) -> Drawn:
-    """Draw the peak normal force's error of one model over the factor grid."""
+    """Draw the peak normal force's error of one model over the test matrix."""
     values = {row.case_id: row.error for row in tables.of_pair(pair) if row.quantity == "peak_normal_force"}
     known = [abs(value) for value in values.values() if value is not None]
-    names = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
+    names = f"{wording.source(pair[0])} compared with {wording.source(pair[1])}"
     if not known:
         return Drawn(None, f"{names}: no current reference, so there is no error to draw.")
-    limit = max(known)
+    every = [row.error for row in tables.errors if (row.quantity, row.metric) == ("peak_normal_force", "scalar")]
+    limit = max(abs(error) for error in every if error is not None)  # one scale for all models
     rows = [(facet, label, cells) for facet in facets(views) for label, cells in facet.rows]
     across = max(len(cells) for _, _, cells in rows)
 
@@ -60,7 +61,8 @@ def heat(
 
     size = (1.5 * WIDTH, 0.32 * len(rows) + 0.4)
     key = f"heat-{pair[0]}-{pair[1]}".replace(":", "-")
-    caption = f"Colours from blue, {wording.percent(-limit)}, over white, none, to orange, {wording.percent(limit)}."
+    caption = f"Colours from blue, {wording.percent(-limit)}, over white, none, to orange, {wording.percent(limit)}; "
+    caption += "one scale for all models."
     return draw(folder, key, f"Error of the peak normal force, {names}", caption, paint, marks, size, wide=True)
 
 
@@ -92,7 +94,7 @@ def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: s
                         ends, bias * ends / spread, bias * ends * spread, color=look.color, alpha=0.15, lw=0
                     )
             x, y = np.array(found).T
-            label = f"{wording.source(pair[0])} against {wording.source(pair[1])}"
+            label = f"{wording.source(pair[0])} compared with {wording.source(pair[1])}"
             axes.plot(x, y, look.marker, ms=4, color=look.color, mec="white", mew=0.5, label=label)
         unit = own[0].unit
         axes.set(xscale="log", yscale="log", xlabel=f"reference, {unit}", ylabel=f"predicted, {unit}")

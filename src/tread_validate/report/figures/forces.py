@@ -18,6 +18,8 @@ from ..histories import thin
 from ..tables import Tables
 from .style import Drawn, draw
 
+NAMES = {"normal": "normal", "tangential": "longitudinal"}
+
 
 def history_panel(
     folder: Path,
@@ -46,7 +48,7 @@ def history_panel(
                 label=wording.source(source),
             )
         axes.axhline(0.0, color="#57606a", lw=0.7)
-        axes.set(xlabel="time from first touch, ms", ylabel=f"{force} force, N")
+        axes.set(xlabel="time from first contact, ms", ylabel=f"{NAMES[force]} force, N")
         axes.legend(loc="best")
 
     return draw(folder, key, title, caption, paint, marks)

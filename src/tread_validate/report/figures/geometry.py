@@ -165,8 +165,8 @@ def _block(axes: Axes, path: BlockPath, instants: tuple[float, ...]) -> None:
         axes.fill(x, y, color=ORANGE, alpha=0.55, lw=0)
 
 
-def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...]) -> Drawn:
-    """Draw the outside of a deck's mesh, contact face down."""
+def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...], height: float) -> Drawn:
+    """Draw the outside of the mesh of a block `height` mm high, contact face down."""
     if not file.is_file():
         return Drawn(None, f"{title}: no mesh at {file.parent.name}/{file.name}; the decks have not been written.")
     data = meshio.read(file)
@@ -184,8 +184,8 @@ def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...]) -> Drawn
 
     size = np.ptp(points[used], axis=0)
     caption = (
-        f"{len(bricks)} bricks, {used.size} nodes, {size[0]:.3g} x {size[1]:.3g} x {size[2]:.3g} mm; finer towards the "
-        "contact face, which is shown on top."
+        f"{len(bricks)} bricks, {used.size} nodes; block {height:.3g} mm high in a bounding box of {size[0]:.3g} x "
+        f"{size[1]:.3g} x {size[2]:.3g} mm (its face follows the path); finer towards the contact face, shown on top."
     )
     return draw(folder, f"mesh-{file.parent.name}", title, caption, paint, marks, (WIDTH, 2.7))
 

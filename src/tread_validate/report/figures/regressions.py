@@ -67,6 +67,11 @@ def residuals(
     rows = [row for row in tables.residuals if row.coefficient == coefficient and row.residual_percent is not None]
     if not rows:
         return Drawn(None, f"No residuals of {NAMES[coefficient].split(',')[0]} to draw.")
+    if len({row.x for row in rows}) < 3:
+        words = (
+            f"Residuals of {NAMES[coefficient].split(',')[0]} are not drawn: two levels fix a line and show no curve."
+        )
+        return Drawn(None, words)
     sources = [name for name in dict.fromkeys(row.source for row in rows) if name in looks]
 
     def paint(axes: Axes) -> None:

@@ -13,6 +13,7 @@ from ...geometry import Family
 from ...history import History
 from ...palette import Look
 from ...study import Case, LoadedStudy
+from ...units import MM
 from .. import wording
 from ..cases import CaseView
 from ..content import Figure, Mark
@@ -115,7 +116,14 @@ class Studio:
         words = f"{view.label}. {caption}"
         return tuple(
             forces.history_panel(
-                self.folder, f"{key}-{force}", f"{force.capitalize()} force", words, histories, self.looks, force, marks
+                self.folder,
+                f"{key}-{force}",
+                f"{forces.NAMES[force].capitalize()} force",
+                words,
+                histories,
+                self.looks,
+                force,
+                marks,
             )
             for force in ("normal", "tangential")
         )
@@ -207,7 +215,7 @@ class Studio:
         for name, case in reversed(blocks.items()):
             file = self.decks / case.case_id / "mesh.vtu"
             title = f"Mesh of block {name.replace('_', ' ')}"
-            found.append(geometry.mesh(self.folder, file, title, self.input_marks(f"block {name}")))
+            found.append(geometry.mesh(self.folder, file, title, self.input_marks(f"block {name}"), case.height / MM))
         return tuple(found)
 
     def _cases(self) -> tuple[Case, ...]:

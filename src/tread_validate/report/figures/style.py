@@ -7,10 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Canvas
 
-from ...plotting import note, panel, save, styled
+from ...plotting import MARGINS, note, panel, save, styled
 from ..content import Figure, Figures, Item, Mark, Paragraph
 from ..marks import in_words
+
+SIGNS_PER_INCH, HANDLE, LINE = 15.0, 8, 0.17  # of a legend: signs an inch, width of a handle in signs, inches a line
 
 
 @dataclass(frozen=True)
@@ -35,11 +38,34 @@ def draw(
     with styled():
         canvas, axes = panel(size)
         paint(axes)
+        _legend_above(canvas, axes)
         if marks:
             note(canvas, in_words(marks))
         svg = folder / f"{key}.svg"
         save(canvas, svg)
     return Drawn(Figure(key, title, caption, svg, marks, wide))
+
+
+def _legend_above(canvas: Canvas, axes: Axes) -> None:
+    """Move a legend out of the axes, above them, so that it covers nothing that is drawn."""
+    inside = axes.get_legend()
+    if inside is None:
+        return
+    handles, labels = axes.get_legend_handles_labels()
+    inside.remove()
+    width, height = canvas.get_size_inches()
+    columns = max(1, min(len(labels), int(SIGNS_PER_INCH * width / (max(map(len, labels)) + HANDLE))))
+    lines = -(-len(labels) // columns)
+    if canvas.get_layout_engine() is None:
+        room = LINE * lines + 0.08
+        canvas.set_size_inches(width, height + room)
+        top = (MARGINS["top"] * height) / (height + room)
+        canvas.subplots_adjust(bottom=MARGINS["bottom"] * height / (height + room), top=top)
+        canvas.legend(
+            handles, labels, loc="lower left", bbox_to_anchor=(0.01, top + 0.22 / (height + room)), ncols=columns
+        )
+    else:
+        canvas.legend(handles, labels, loc="outside upper left", ncols=columns)
 
 
 def figure_items(drawn: tuple[Drawn, ...], pdf: bool = False) -> tuple[Item, ...]:

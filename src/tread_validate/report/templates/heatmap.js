@@ -7,8 +7,8 @@ TV.heatmap = (function () {
     const end = clipped < 0 ? [128, 184, 222] : [242, 156, 104];
     return "rgb(" + end.map((channel) => Math.round(255 + (channel - 255) * Math.abs(clipped))).join(",") + ")";
   }
-  function draw() {
-    const chosen = TV.data.heat[Number(document.getElementById("heat-quantity").value)];
+  async function draw() {
+    const chosen = (await TV.load("heat"))[Number(document.getElementById("heat-quantity").value)];
     for (const link of document.querySelectorAll("a.heat-cell")) {
       const cell = chosen.cells[link.dataset.case];
       link.textContent = cell ? cell[0] : "n/a";

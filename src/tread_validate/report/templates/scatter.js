@@ -1,8 +1,8 @@
 /* Predicted against reference on logarithmic axes, with the line of no error, the bias and two standard deviations. */
 "use strict";
 TV.scatter = (function () {
-  function draw() {
-    const chosen = TV.data.scatter[Number(document.getElementById("scatter-quantity").value)];
+  async function draw() {
+    const chosen = (await TV.load("scatter"))[Number(document.getElementById("scatter-quantity").value)];
     const traces = [];
     const all = chosen.series.flatMap((series) => series.x.concat(series.y));
     let ticks = {};

@@ -17,6 +17,11 @@ TV.inflate = async function (packed) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
   return new Response(stream).text();
 };
+/* Data of a chart, inflated once. */
+TV.load = async function (key) {
+  if (typeof TV.data[key] === "string") { TV.data[key] = JSON.parse(await TV.inflate(TV.data[key])); }
+  return TV.data[key];
+};
 /* The plotting library is inflated when a chart is first needed; the page's policy knows its digest. */
 TV.plotly = function () {
   if (!TV.plotlyLoaded) {
