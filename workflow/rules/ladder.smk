@@ -5,6 +5,7 @@ rule ladder_tables:
         study=STUDY,
         data=DATA_FILES,
         decks=rules.decks.output.inp,
+        models=expand(rules.model.output.summary, model=MODELS),
         references=REFERENCE_FILES,
     output:
         folder=directory(f"{RESULTS}/ladder"),
@@ -17,12 +18,13 @@ rule ladder_tables:
     params:
         decks=lambda wildcards: DECKS,
         references=lambda wildcards: REFERENCES,
+        models=lambda wildcards: f"{RESULTS}/models",
         code=CODE["ladder"],
     message:
         "Running the model ladder"
     shell:
         "tread-validate ladder {input.study} --decks {params.decks} --references {params.references} "
-        "-o {output.folder} > {log} 2>&1"
+        "--models {params.models} -o {output.folder} > {log} 2>&1"
 
 
 rule ladder:

@@ -18,6 +18,10 @@ def command(
     decks: Annotated[
         Path | None, typer.Option("--decks", help="folder of the generated decks [default: the study's, in fe_inputs]")
     ] = None,
+    models: Annotated[
+        Path | None,
+        typer.Option("--models", help="folder of the own models' runs [default: the study's, in results]"),
+    ] = None,
     samples: Annotated[
         int, typer.Option("--samples", min=8, max=65536, help="base sample of the Sobol indices, a power of two")
     ] = 256,
@@ -44,7 +48,7 @@ def command(
     loaded = load_study(study)
     place = Workspace(loaded.model.name)
     output = output or place.ladder
-    folders = Folders(references, decks or place.decks, output)
+    folders = Folders(references, decks or place.decks, output, models or place.results / "models")
     tables = build(loaded, folders, typer.echo, samples, part or PARTS)
     record = {
         "study": loaded.model.name,
@@ -59,6 +63,7 @@ def command(
         error = row["mean_abs_peak_normal_force_error"]
         told = "no current reference" if error is None else f"mean error of peak N {100 * error:.1f} %"
         seconds = row["seconds_per_pass"]
-        cost = "not made for these cases" if seconds is None else f"{seconds:.4f} s a pass, {told}"
-        typer.echo(f"{row['rung']}, {row['group']}: {cost}")
+        cost = "" if seconds is None else f"{seconds:.4f} s a pass, "
+        nothing = seconds is None and error is None
+        typer.echo(f"{row['rung']}, {row['group']}: " + (row["note"] if nothing and row["note"] else cost + told))
     typer.echo(f"tables and figures in {output}")

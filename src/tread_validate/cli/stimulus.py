@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .options import number
+
+if TYPE_CHECKING:
+    from ..history import History
+    from ..study import Case, LoadedStudy
 
 
 def command(
@@ -16,8 +20,15 @@ def command(
     pitch: Annotated[Path, typer.Option("--pitch", help="pitch sequence (YAML): block lengths and gaps, rib by rib")],
     output: Annotated[Path, typer.Option("-o", "--output", help="folder for the results")],
     variant: Annotated[
-        list[str] | None, typer.Option("--variant", help="model variant; the study's variants where left out")
+        list[str] | None,
+        typer.Option("--variant", help="spring variant; the study's where neither this nor --model is given"),
     ] = None,
+    model: Annotated[
+        list[str] | None, typer.Option("--model", help="a model of the study's own, run on each size of block")
+    ] = None,
+    trust_models: Annotated[
+        bool, typer.Option("--trust-models", help="run what the study names as command or Python object")
+    ] = False,
     history: Annotated[
         list[str] | None,
         typer.Option("--history", help="LABEL=FILE.csv: a block history of your own (FE, measured), any number"),
@@ -63,8 +74,12 @@ def command(
         path = read_transfer_function(transfer_function)
 
     sources = {}
-    for name in variant or loaded.model.spring.variants:
+    for name in variant or (() if model else loaded.model.spring.variants):
         sources[name] = by_model(case, partial(spring.run, variant=name))
+    for name in model or ():
+        if name in sources:
+            raise InputError("--model", f"{name}, the name of a variant too", "a name of its own")
+        sources[name] = by_model(case, partial(_own, loaded, name, trusted=trust_models))
     for item in history or ():
         label, equals, file = item.partition("=")
         if not equals or not label.replace("_", "").replace("-", "").isalnum():
@@ -98,6 +113,17 @@ def command(
     draw(stimuli, output / "stimulus.png", assumed)
     if assumed:
         typer.echo(f"assumed or synthetic inputs: {assumed}")
+
+
+def _own(study: LoadedStudy, name: str, case: Case, *, trusted: bool) -> History:
+    """Run a model of the study's own; it must give both forces."""
+    from ..errors import InputError
+    from ..models.single import history_of
+
+    history = history_of(study, name, case, trusted=trusted)
+    if not history.gives_tangential:
+        raise InputError(f"model {name}", "no tangential force", "both forces: the stimulus is made of both")
+    return history
 
 
 def _marked(origin: str, name: str) -> tuple[str, ...]:

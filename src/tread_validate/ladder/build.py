@@ -15,6 +15,7 @@ from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt
 from ..study.typical import path_kind, typical_cases
 from . import compatibility, effects, figures, pareto, published, sensitivity
+from .own_models import own_rows
 
 Table = list[dict[str, Any]]
 Say = Callable[[str], None]
@@ -24,11 +25,12 @@ PARTS = ("pareto", "effects", "published", "compatibility", "sobol")
 
 @dataclass(frozen=True)
 class Folders:
-    """Where references and decks lie, and where the tables go."""
+    """Where references, decks and the runs of the study's own models lie, and where the tables go."""
 
     references: Path
     decks: Path
     output: Path
+    models: Path | None = None
 
 
 def build(
@@ -55,7 +57,10 @@ def build(
     judged = tolerances(study.model.tolerances, study.source)
     if "pareto" in parts:
         say("error and cost of every rung")
-        put("errors", pareto.CASE_COLUMNS, pareto.case_rows(cases, references, engine, judged=judged))
+        held = pareto.case_rows(cases, references, engine, judged=judged)
+        if folders.models is not None:
+            held += own_rows(study, cases, references, folders.models, judged)
+        put("errors", pareto.CASE_COLUMNS, held)
         put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
         put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.references, engine))
         figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")

@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..palette import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
+from ..palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION
 from ..plotting import canvas, note, panel, save, styled
 
 # told apart by marker as well
@@ -21,6 +21,7 @@ STYLES = {
     "coupled": (GREEN, "D"),
     "fe": (BLACK, "P"),
 }
+OWN = (GREY, "X")  # a model of the user's own; its name stands in the legend
 Rows = Sequence[Mapping[str, Any]]
 ROOM = 0.96  # of the height, under the note
 
@@ -32,15 +33,16 @@ def pareto_figure(rows: Rows, meshes: Rows, path: Path) -> None:
         left, right = figure.subplots(1, 2)
         for row in rows:
             error = row["mean_abs_peak_normal_force_error"]
-            if row["group"] == "all" or error is None:
+            if row["group"] == "all" or error is None or row["seconds_per_pass"] is None:
                 continue
-            color, marker = STYLES[row["rung"]]
+            color, marker = STYLES.get(row["rung"], OWN)
             look = {
                 "color": color, "ms": 7, "ls": "none", "label": f"{row['rung']}, {row['group']}",
                 "mfc": color if row["group"] == "rig" else "white",
             }  # fmt: skip
             left.plot(row["seconds_per_pass"], 100.0 * error, marker, **look)
-            right.plot(row["seconds_per_pass"], row["mean_iso18571_tangential"], marker, **look)
+            if row["mean_iso18571_tangential"] is not None:
+                right.plot(row["seconds_per_pass"], row["mean_iso18571_tangential"], marker, **look)
         color, marker = STYLES["fe"]
         for row in meshes:
             if row["seconds_estimated"] is None:

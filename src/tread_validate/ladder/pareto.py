@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..compare import MetricRow, compare
 from ..compare.quantities import Tolerances, tolerances
-from ..compare.runs import Runs
+from ..compare.runs import Runs, SourceRun
 from ..errors import InputError, one_line
 from ..reference import FeStore
 from ..spring import run
@@ -27,15 +28,16 @@ GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
 PEAKS = ("peak_positive_tangential_force", "peak_negative_tangential_force")
 
 CASE_COLUMNS = (
-    "rung", "case_id", "reference", "status", "seconds", "peak_normal_force_error", "normal_impulse_error",
+    "rung", "case_id", "reference", "status", "seconds", "memory_MB", "peak_normal_force_error", "normal_impulse_error",
     "peak_positive_tangential_force_error_N", "peak_negative_tangential_force_error_N", "tangential_error",
     "iso18571_normal", "iso18571_tangential", "late_sign_change", "note", "assumed",
 )  # fmt: skip
 COLUMNS = (
-    "rung", "group", "reference", "cases", "compared", "seconds_per_pass", "mean_abs_peak_normal_force_error",
-    "worst_peak_normal_force_error", "worst_case_id", "worst_normal_impulse_error", "tangential_within",
-    "worst_tangential_error_N", "least_iso18571_normal", "least_iso18571_tangential", "mean_iso18571_normal",
-    "mean_iso18571_tangential", "target", "target_met", "target_missed", "note", "assumed",
+    "rung", "group", "reference", "cases", "compared", "seconds_per_pass", "memory_MB",
+    "mean_abs_peak_normal_force_error", "worst_peak_normal_force_error", "worst_case_id",
+    "worst_normal_impulse_error", "tangential_within", "worst_tangential_error_N", "least_iso18571_normal",
+    "least_iso18571_tangential", "mean_iso18571_normal", "mean_iso18571_tangential", "target", "target_met",
+    "target_missed", "note", "assumed",
 )  # fmt: skip
 
 
@@ -90,9 +92,7 @@ def case_rows(
     warm: set[tuple[str, str]] = set()
     for rung, case in track([(rung, case) for rung in rungs for case in cases]):
         kind = (rung, f"{case.block_name} {case.path_name}")
-        reference = references[source, case.case_id]
-        assumed = "; ".join(case.assumed())
-        values: tuple[Any, ...]
+        seconds = None
         try:
             if kind not in warm:
                 run(case, rung)
@@ -100,44 +100,64 @@ def case_rows(
             begin = time.process_time()
             predicted = run(case, rung)
         except InputError as error:  # a rung that is not made for such a block: said in its row
-            values = ("not_applicable", *[None] * 9, one_line(str(error)))
-            rows.append(dict(zip(CASE_COLUMNS, (rung, case.case_id, source, *values, assumed), strict=True)))
-            continue
-        seconds = time.process_time() - begin
-        if reference.history is None:
-            values = (reference.status, seconds, *[None] * 8, reference.note)
+            found = SourceRun(rung, case.case_id, "not_applicable", one_line(str(error)))
         else:
-            values = ("current", seconds, *_errors(compare(reference.history, predicted, tolerances=judged)), "")
-        rows.append(dict(zip(CASE_COLUMNS, (rung, case.case_id, source, *values, assumed), strict=True)))
+            seconds = time.process_time() - begin
+            found = SourceRun(rung, case.case_id, "current", history=predicted)
+        rows.append(case_row(rung, case, references[source, case.case_id], found, seconds=seconds, judged=judged))
     return rows
 
 
+def case_row(
+    rung: str,
+    case: Case,
+    reference: SourceRun,
+    found: SourceRun,
+    *,
+    seconds: float | None,
+    memory: float | None = None,
+    judged: Tolerances | None = None,
+) -> dict[str, Any]:
+    """Hold a rung's run of a case against the reference; `seconds` and `memory` (MB) are what the run cost."""
+    values: tuple[Any, ...] = (None,) * 8
+    bad = found if found.status == "not_applicable" or reference.history is not None else reference
+    if reference.history is not None and found.history is not None:
+        values = _errors(compare(reference.history, found.history, tolerances=judged))
+        status, note = "current", ""
+    else:
+        status, note = bad.status, bad.note
+    cells = (rung, case.case_id, reference.source, status, seconds, memory, *values, note, "; ".join(case.assumed()))
+    return dict(zip(CASE_COLUMNS, cells, strict=True))
+
+
 def _errors(rows: Sequence[MetricRow]) -> tuple[Any, ...]:
+    """Return the errors of `CASE_COLUMNS`; None of what a model does not give."""
     by_name = {(row.quantity, row.metric): row for row in rows}
 
-    def difference(name: str) -> float:
+    def difference(name: str) -> float | None:
         row = by_name[name, "scalar"]
-        assert row.reference is not None
-        assert row.predicted is not None
-        return row.predicted - row.reference
+        return None if row.reference is None or row.predicted is None else row.predicted - row.reference
 
-    def relative(name: str) -> float:
-        row = by_name[name, "scalar"]
-        assert row.reference is not None
-        return difference(name) / row.reference
+    def relative(name: str) -> float | None:
+        apart, reference = difference(name), by_name[name, "scalar"].reference
+        return None if apart is None or not reference else apart / reference
 
     def score(name: str) -> float | None:
         return by_name[name, "iso18571_r"].predicted
 
     positive, negative = (difference(f"peak_{sign}_tangential_force") for sign in ("positive", "negative"))
     # over the tolerance by which the results judge the same peaks
-    shares = [abs(by_name[name, "scalar"].error or 0.0) / (by_name[name, "scalar"].tolerance or 1.0) for name in PEAKS]
+    shares = [
+        abs(row.error) / (row.tolerance or 1.0)
+        for row in (by_name[name, "scalar"] for name in PEAKS)
+        if row.error is not None
+    ]
     return (
         relative("peak_normal_force"),
         relative("normal_impulse"),
         positive,
         negative,
-        max(shares),
+        max(shares, default=None),
         score("normal_force"),
         score("tangential_force"),
         by_name["late_sign_change", "scalar"].predicted,
@@ -162,44 +182,50 @@ def pareto_rows(rows: Sequence[Mapping[str, Any]], cases: Sequence[Case]) -> lis
 
 def _sum_up(rung: str, group: str, own: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     kept = [row for row in own if row["status"] == "current"]
-    timed = [row["seconds"] for row in own if row["seconds"] is not None]
-    seconds = float(np.median(timed)) if timed else None
     target = TARGETS.get(rung)
     asked = target is not None and group in target.groups
     entries: dict[str, Any] = dict.fromkeys(COLUMNS)
     entries.update(
         rung=rung, group=group, reference=own[0]["reference"], cases=len(own), compared=len(kept),
-        seconds_per_pass=seconds, target=target.text() if target is not None and asked else "",
-        note=_missing(own),
+        seconds_per_pass=_of(np.median, _known(own, "seconds")), memory_MB=_of(np.max, _known(own, "memory_MB")),
+        target=target.text() if target is not None and asked else "", note=_missing(own),
         assumed=own[0]["assumed"],
     )  # fmt: skip
     if not kept:
         return entries
     normal = np.array([row["peak_normal_force_error"] for row in kept])
     impulse = np.array([row["normal_impulse_error"] for row in kept])
-    tangential = np.array([row["tangential_error"] for row in kept])
-    newtons = np.array([
-        max(abs(row["peak_positive_tangential_force_error_N"]), abs(row["peak_negative_tangential_force_error_N"]))
-        for row in kept
-    ])  # fmt: skip
-    iso = np.array([[row["iso18571_normal"], row["iso18571_tangential"]] for row in kept], dtype=float)
+    newtons = np.concatenate(
+        [_known(kept, f"peak_{sign}_tangential_force_error_N") for sign in ("positive", "negative")]
+    )
+    iso_normal, iso_tangential = (_known(kept, f"iso18571_{force}") for force in ("normal", "tangential"))
     worst = int(np.argmax(np.abs(normal)))
     entries.update(
         mean_abs_peak_normal_force_error=float(np.mean(np.abs(normal))),
         worst_peak_normal_force_error=float(normal[worst]),
         worst_case_id=kept[worst]["case_id"],
         worst_normal_impulse_error=float(impulse[np.argmax(np.abs(impulse))]),
-        tangential_within=float(np.mean(tangential <= 1.0)),
-        worst_tangential_error_N=float(newtons.max()),
-        least_iso18571_normal=float(np.nanmin(iso[:, 0])),
-        least_iso18571_tangential=float(np.nanmin(iso[:, 1])),
-        mean_iso18571_normal=float(np.nanmean(iso[:, 0])),
-        mean_iso18571_tangential=float(np.nanmean(iso[:, 1])),
+        tangential_within=_of(np.mean, _known(kept, "tangential_error") <= 1.0),
+        worst_tangential_error_N=_of(np.max, np.abs(newtons)),
+        least_iso18571_normal=_of(np.min, iso_normal),
+        least_iso18571_tangential=_of(np.min, iso_tangential),
+        mean_iso18571_normal=_of(np.mean, iso_normal),
+        mean_iso18571_tangential=_of(np.mean, iso_tangential),
     )
     if target is not None and asked:
         missed = _missed(target, entries)
         entries.update(target_met=not missed, target_missed="; ".join(missed))
     return entries
+
+
+def _known(rows: Sequence[Mapping[str, Any]], name: str) -> NDArray[np.float64]:
+    """Return the values of a column that are known."""
+    return np.array([row[name] for row in rows if row.get(name) is not None], dtype=float)
+
+
+def _of(measure: Callable[[Any], Any], values: NDArray[Any]) -> float | None:
+    """Return a measure of the values, None where there are none."""
+    return float(measure(values)) if values.size else None
 
 
 def _missed(target: Target, entries: Mapping[str, Any]) -> list[str]:
