@@ -22,18 +22,18 @@ from .marks import Marks
 from .tables import number, read_table, records
 
 FIGURES = (
-    ("pareto", "Cost and error of each rung", "Error of the peak normal force against the time of one pass."),
-    ("sobol", "Which inputs the peak forces hang on", "First-order and total Sobol indices over the inputs' ranges."),
+    ("pareto", "Cost and error of each model level", "Error of the peak normal force against the time of one pass."),
+    ("sobol", "Which inputs the peak forces depend on", "First-order and total Sobol indices over the inputs' ranges."),
     ("compatibility", "Speed and temperature together", "Which spectra of the compound could give both coefficients."),
 )
 TABLES = (
-    ("pareto", "Cost and error of each rung"),
-    ("published", "Published figures of the belt run, rung by rung"),
+    ("pareto", "Cost and error of each model level"),
+    ("published", "Published figures of the belt run, level by level"),
     ("effects", "What each physical effect is worth"),
     ("combinations", "Which edge radius, patch length and modulus would meet all published figures"),
     ("compatibility", "Which compounds could give both published coefficients"),
     ("sobol", "Sobol indices"),
-    ("stiffness", "Stiffness of the bonded block, solved and in closed form"),
+    ("stiffness", "Stiffness of the block bonded to its mount, solved and in closed form"),
     ("fe_meshes", "Cost and error of the FE meshes"),
 )
 
@@ -46,12 +46,12 @@ def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: 
     if record["study"] != study.model.name:
         return None
     items: list[Item] = [
-        Paragraph("From the simplest spring model to the finest: what each rung adds, and what it costs.")
+        Paragraph("From the simplest spring model to the finest: what each level adds, and what it costs.")
     ]
     if record["study_digest"] != conditions_digest(study.cases()):
-        items.append(Paragraph("Stale: made when the study had other conditions. Make the ladder anew."))
+        items.append(Paragraph("Stale: made when the study had other conditions. Make the hierarchy anew."))
     if record.get("code") != code_digest("ladder"):
-        items.append(Paragraph("Made by other code than today's. Make the ladder anew: make ladder."))
+        items.append(Paragraph("Made by other code than today's. Make the hierarchy anew: make ladder."))
     tables = {name: read_table(folder / f"{name}.csv", ()) for name, _ in TABLES if (folder / f"{name}.csv").is_file()}
     figures = []
     for name, title, caption in FIGURES:
@@ -71,7 +71,7 @@ def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: 
     for name, title in TABLES:
         if name in tables:
             items.append(plain_table(f"ladder-{name}", title, tables[name], marks, folded=True))
-    return Section("ladder", "The model ladder", tuple(items)) if tables else None
+    return Section("ladder", "The model hierarchy", tuple(items)) if tables else None
 
 
 def _record(path: Path) -> dict[str, Any]:
@@ -116,7 +116,14 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
         Column("Least ISO/TS 18571", "normal / tangential", numeric=True),
         Column("Target", wide=True),
     )
-    return Table("ladder-rungs", "The rungs", columns, tuple(rows), "Errors are against the FE runs.", with_marks=True)
+    return Table(
+        "ladder-rungs",
+        "The model levels",
+        columns,
+        tuple(rows),
+        "Errors are those of the comparison with the FE runs.",
+        with_marks=True,
+    )
 
 
 def mesh_table(reference: Path) -> Table | None:
@@ -135,11 +142,11 @@ def mesh_table(reference: Path) -> Table | None:
         *(Column(f"Mesh {index + 1}", numeric=True) for index in range(widest)),
         Column("Extrapolated", "to size 0", numeric=True),
         Column("Order", numeric=True),
-        Column("Error that remains", numeric=True),
+        Column("Discretisation uncertainty", numeric=True),
     )
     caption = (
-        "Richardson extrapolation from three meshes of one case (doi:10.1115/1.2960953); the error that remains at the "
-        "size in use is the uncertainty of the reference runs of the same engine, block, kind of path and mesh."
+        "Richardson extrapolation from three meshes of one case (doi:10.1115/1.2960953); the discretisation uncertainty at the "
+        "size in use is that of the reference runs of the same engine, block, kind of path and mesh."
     )
     return Table("meshes", "Mesh error of the FE runs", columns, tuple(rows), caption, folded=True)
 
@@ -153,7 +160,11 @@ def _mesh_row(name: str, item: Mapping[str, Any], data: Mapping[str, Any], sizes
         cells.append(Cell(wording.plain(value, 4), sort=value, note=size))
     cells += [
         Cell(wording.plain(limit, 4), sort=limit),
-        Cell("–" if order is None else f"{order:.2f}", sort=order, note="" if order is not None else "meshes scatter"),
+        Cell(
+            "–" if order is None else f"{order:.2f}",
+            sort=order,
+            note="" if order is not None else "no monotonic convergence",
+        ),
         Cell(wording.percent(error, 2), sort=error),
     ]
     group = f"{data.get('case_id', '')}, {number(data.get('element_size_mm')) or 0:g} mm in use"

@@ -38,8 +38,8 @@ def inputs_section(tables: Tables, marks: Marks) -> Section:
         Column("Code"),
         Column("Input"),
         Column("Origin"),
-        Column("What stands in, and why", wide=True),
-        Column("Cases that rest on it", numeric=True),
+        Column("Surrogate, and why", wide=True),
+        Column("Cases that depend on it", numeric=True),
     )
     assumptions = Table(
         "assumptions", "Assumed and synthetic inputs", columns, tuple(rows), empty="None.", csv="assumed.csv"
