@@ -145,8 +145,8 @@ def mesh_table(reference: Path) -> Table | None:
         Column("Discretisation uncertainty", numeric=True),
     )
     caption = (
-        "Richardson extrapolation from three meshes of one case (doi:10.1115/1.2960953); the discretisation uncertainty at the "
-        "size in use is that of the reference runs of the same engine, block, kind of path and mesh."
+        "Richardson extrapolation from three meshes of one case (doi:10.1115/1.2960953); the discretisation "
+        "uncertainty at the size in use is that of the reference runs of the same engine, block, kind of path and mesh."
     )
     return Table("meshes", "Mesh error of the FE runs", columns, tuple(rows), caption, folded=True)
 
