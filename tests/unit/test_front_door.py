@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import importlib
+import runpy
 import subprocess
 import sys
 
@@ -45,3 +46,22 @@ def test_histories_of_two_cases_are_not_compared(paper_study):
     one, two = (tv.run(study.case(f"rig-rectangle-22c-0p2mm-{speed}rpm")) for speed in (150, 300))
     with pytest.raises(InputError, match="the reference's case"):
         tv.compare(one, two)
+
+
+def test_notebook_runs_from_the_top_of_a_clone(root, monkeypatch, capsys):
+    """The half sine's peak of 100 N is what the comparison finds; its tangential force is not given."""
+    monkeypatch.chdir(root)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    cells = runpy.run_path("examples/notebook/own_model.py")
+    rows = {(row.quantity, row.metric): row for row in cells["rows"].rows}
+    assert rows["peak_normal_force", "scalar"].predicted == pytest.approx(100.0, rel=1e-4)
+    assert rows["peak_positive_tangential_force", "scalar"].status == "not_given"
+    assert "T not given" in capsys.readouterr().out
+
+
+def test_report_of_a_study_without_runs_says_so_on_its_page(root, tmp_path):
+    """Nothing is run for a report: without runs and decks every run is missing."""
+    page = tv.report(root / "examples/own_model/python/study.yaml", tmp_path / "out", root=tmp_path,
+                     references=root / "reference_data")  # fmt: skip
+    assert page == tmp_path / "out" / "index.html"
+    assert "missing" in page.read_text(encoding="utf-8")
