@@ -17,6 +17,7 @@ from tread_validate.inp import DeckFiles
 from tread_validate.provenance import sha256_file
 from tread_validate.reference import FeStore, engines_here
 from tread_validate.reference.deck_store import read_problem
+from tread_validate.reference.fe_store import Reference
 from tread_validate.reference.filing import drop_unused_blocks, file_run, read_run
 from tread_validate.source_code import code_digest
 
