@@ -24,6 +24,7 @@ class SourceRun:
     ----------
     status : str
         ``current``; ``other_code``: a reference made before its engine's code changed, compared and marked; ``stale``,
+        ``not_a_reference`` (its own record says that its energies or its forces cannot be believed),
         ``unbound`` (made nobody knows from what), ``missing``, ``failed`` (the model gave no history), ``corrupt`` or
         ``no_contact``: never compared.
     note : str
@@ -77,7 +78,10 @@ def fe_runs(
         found = store.find(engine, case.case_id, deck_files(decks_dir, case.case_id))
         folder = "" if found.folder is None else found.folder.relative_to(reference_dir).as_posix()
         run = SourceRun(source, case.case_id, found.status, found.reason, digest=found.digest, folder=folder)
-        if found.history is not None:
+        fault = found.fault()
+        if fault:
+            run = replace(run, status="not_a_reference", note=fault)
+        elif found.history is not None:
             stated = found.stated_error()
             error = store.mesh_errors.error(case, engine) if stated is None else stated
             run = with_scalars(run, found.history, from_mesh_error(error))

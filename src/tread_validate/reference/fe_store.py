@@ -63,6 +63,17 @@ class Reference:
     digest: str = ""
     folder: Path | None = None
 
+    def fault(self) -> str:
+        """Return why the run's own record says that it is no reference; empty where it does not.
+
+        A record without ``reference_quality`` (of an engine that does not judge its runs) says nothing.
+        """
+        quality = self.record.get("reference_quality")
+        if self.history is None or not isinstance(quality, Mapping) or quality.get("usable") is not False:
+            return ""
+        reasons = quality.get("reasons")
+        return one_line("; ".join(map(str, reasons)) if isinstance(reasons, list) else "not usable")
+
     def stated_error(self) -> float | Mapping[str, float] | None:
         """Return the relative mesh error that the record itself states (for all forces, or by quantity), or None."""
         for key in MESH_ERROR_KEYS:

@@ -29,6 +29,7 @@ STATUSES = {
     "current": "current",
     "missing": "without a run",
     "stale": "stale (made from another deck, inputs or code)",
+    "not_a_reference": "not a reference: its energy balance or its forces cannot be believed",
     "other_code": "made before the engine's code changed",
     "unbound": "not bound to what they were made from",
     "corrupt": "failing their checksum",

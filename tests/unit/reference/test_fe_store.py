@@ -17,6 +17,7 @@ from tread_validate.inp import DeckFiles
 from tread_validate.provenance import sha256_file
 from tread_validate.reference import FeStore, engines_here
 from tread_validate.reference.deck_store import read_problem
+from tread_validate.reference.fe_store import Reference
 from tread_validate.reference.filing import drop_unused_blocks, file_run, read_run
 from tread_validate.source_code import code_digest
 
@@ -250,3 +251,22 @@ def test_an_engine_that_is_not_here_is_said_before_anything_runs(monkeypatch: py
     for engine, way in (("abaqus", "import-abaqus"), ("calculix", "calculix-ccx"), ("embedded", "gfortran")):
         with pytest.raises(EngineError, match=f"engine {engine}.*nothing was run.*{way}"):
             engines_here.require(engine)
+
+
+def test_run_whose_energies_cannot_be_believed_says_so_and_one_that_is_not_judged_does_not():
+    time = np.linspace(0.0, 0.01, 5)
+    history = History.of(time, np.array([0.0, 1.0, 2.0, 1.0, 0.0]))
+    reasons = ["energy unaccounted for is 3 % of the internal energy or external work, at most 1 %"]
+    bad = Reference(
+        "case",
+        "embedded",
+        "current",
+        history=history,
+        record={"reference_quality": {"usable": False, "reasons": reasons}},
+    )
+    good = Reference(
+        "case", "embedded", "current", history=history, record={"reference_quality": {"usable": True, "reasons": []}}
+    )
+    assert "3 %" in bad.fault()
+    assert good.fault() == ""
+    assert Reference("case", "abaqus", "current", history=history).fault() == ""

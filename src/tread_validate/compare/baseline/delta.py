@@ -12,7 +12,7 @@ from ..tables.row import Column
 from .store import Baseline, Cells, todays_noise
 
 Holds = Callable[[str, Cells], bool]
-BROKEN = ("stale", "other_code", "unbound", "corrupt")
+BROKEN = ("stale", "not_a_reference", "other_code", "unbound", "corrupt")
 SLACK = 1e-9
 
 # the coupled springs stop iterating within a tolerance, and another processor ends elsewhere in it: measured, up to 1.8

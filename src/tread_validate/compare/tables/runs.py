@@ -11,6 +11,7 @@ ASSUMED = "assumed and synthetic inputs that the row rests on, `; ` between them
 SOURCE = "who made the run: `spring:<variant>`, `fe:<engine>`, `rig:measured`, `<kind>:published`"
 STATUS = (
     "`current`, `other_code` (a reference made before its engine's code changed), `missing`, `stale`, `unbound`, "
+    "`not_a_reference` (its record says that its energies or forces cannot be believed), "
     "`corrupt`, `no_contact`, `undefined` or `incomplete`"
 )
 NOTE = "why there is no value, or a word on it"
