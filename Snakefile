@@ -29,5 +29,6 @@ localrules:
 rule all:
     default_target: True
     input:
+        rules.tables.output.errors,
         REPORT_PAGE,
         REPORT_PDF,
