@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from tread_validate.spring import run
 from tread_validate.spring.block_pass import prepare
+from tread_validate.spring.memory import TICKS
 from tread_validate.study import Case, Sipe, load_study
 
 Array = NDArray[np.float64]
@@ -156,9 +157,12 @@ def test_every_pass_pushes_only_and_ends_free(
         creep_ratio=creep_ratio,
     )
     history = run(case)
-    rubber = prepare(case).rubber
+    ready = prepare(case)
+    rubber = ready.rubber
     bound = (rubber.long_term_modulus + rubber.moduli.sum()) * interference / case.height * case.length * case.width
-    assert np.all(history.normal_force >= -1e-9 * bound)
+    # an element lets go at a tick: it may be pulled for one, in which its pressure falls as fast as at the steepest
+    steepest = np.max(np.abs(np.diff(history.normal_force))) / ready.step
+    assert np.all(history.normal_force >= -steepest * ready.step / TICKS - 1e-9 * bound)
     assert history.normal_force.max() <= bound * (1.0 + 1e-6)
     assert np.all((history.slipping_fraction >= 0.0) & (history.slipping_fraction <= 1.0))
     assert history.normal_force[-1] == 0.0

@@ -99,7 +99,7 @@ def test_another_study_with_the_same_case_ids_touches_nothing_of_the_first(small
     """Its own decks, results, baseline; the first one's references stay, and its mesh error is unknown."""
     references = small.folder / "reference_data" / "fe" / "embedded"
     before = {path: path.read_bytes() for path in references.rglob("*") if path.is_file()}
-    small.study("other", "config/other.yaml", element_size_mm=5.0)
+    small.study("other", "config/other.yaml", element_size_mm=3.5)
     done = small.snakemake("reference", study="config/other.yaml")
     assert done.returncode == 0, done.stdout + done.stderr
     assert all(path.read_bytes() == data for path, data in before.items())

@@ -44,10 +44,10 @@ def command(
     import os
 
     from ..compare.baseline.output import delta_csv, delta_junit, delta_markdown, summary
-    from ..compare.model_check import Places, check_models
-    from ..compare.model_told import told
     from ..errors import CheckFailedError, EngineError
     from ..files import write_text
+    from ..model_check import Places, check_models
+    from ..model_told import told
     from ..study import load_study
     from ..workspace import Workspace
 

@@ -7,9 +7,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Literal
 
-import yaml
-
 from ...inp import DataLine, KeywordBlock
+from ...yaml_text import load_yaml
 
 Severity = Literal["error", "warning", "note"]
 
@@ -29,10 +28,9 @@ class Rule:
 def catalogue() -> dict[str, Rule]:
     """Return every rule by its name."""
     text = (files("tread_validate.deck.lint") / "rules.yaml").read_text(encoding="utf-8")
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     return {
         entry["rule"]: Rule(code, entry["rule"], entry["severity"], entry["title"], entry["help"])
-        for code, entry in yaml.load(text, Loader=loader).items()
+        for code, entry in load_yaml(text, "rules.yaml", fast=True).items()
     }
 
 

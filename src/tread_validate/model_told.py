@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from .baseline.delta import Check
-from .baseline.movement import Movement
-from .baseline.output import delta_lines, summary
+from .compare.baseline.delta import Check
+from .compare.baseline.movement import Movement
+from .compare.baseline.output import delta_lines, summary
+from .compare.told import summed_up
 from .model_check import ModelCheck
-from .told import summed_up
 
 FLIPS, MOVEMENTS, ROWS = 8, 9, 8
 

@@ -7,23 +7,23 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from .. import deck
-from ..files import read_text, write_text
-from ..models.run import run_model
-from ..source_code import code_digest
-from ..spring import resolve_creep
-from ..spring import run as run_spring
-from ..spring.summary import summary_csv, summary_row
-from ..study import Case, LoadedStudy
-from .baseline.delta import Check, check_tables
-from .baseline.movement import Movement, movements
-from .baseline.store import Acceptance, Baseline, load_baseline, same_study
-from .build import write_tables
-from .model_runs import model_runs, model_source
-from .part import Part, part_of
-from .runs import spring_runs
-from .study_comparison import Comparison, compare_study
-from .summary import write_summary
+from . import deck
+from .compare.baseline.delta import Check, check_tables
+from .compare.baseline.movement import Movement, movements
+from .compare.baseline.store import Acceptance, Baseline, load_baseline, same_study
+from .compare.build import write_tables
+from .compare.model_runs import model_runs, model_source
+from .compare.part import Part, part_of
+from .compare.runs import spring_runs
+from .compare.study_comparison import Comparison, compare_study
+from .compare.summary import write_summary
+from .files import read_text, write_text
+from .models.run import run_model
+from .source_code import code_digest
+from .spring import resolve_creep
+from .spring import run as run_spring
+from .spring.summary import summary_csv, summary_row
+from .study import Case, LoadedStudy
 
 WRITTEN_FOR = "written_for.txt"
 
