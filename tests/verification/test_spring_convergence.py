@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tread_validate.spring import run
 from tread_validate.spring.block_pass import prepare
-from tread_validate.spring.memory import TICKS
+from tread_validate.spring.element import PRESSURE
 from tread_validate.study import Case, Sipe, load_study
 
 Array = NDArray[np.float64]
@@ -160,9 +160,9 @@ def test_every_pass_pushes_only_and_ends_free(
     ready = prepare(case)
     rubber = ready.rubber
     bound = (rubber.long_term_modulus + rubber.moduli.sum()) * interference / case.height * case.length * case.width
-    # an element lets go at a tick: it may be pulled for one, in which its pressure falls as fast as at the steepest
-    steepest = np.max(np.abs(np.diff(history.normal_force))) / ready.step
-    assert np.all(history.normal_force >= -steepest * ready.step / TICKS - 1e-9 * bound)
+    # no element is ever pulled; adding them up over a skewed edge cancels to less than half the 10 uN of a history
+    assert np.all(ready.element(creep_ratio)[0][:, PRESSURE] >= 0.0)
+    assert np.all(history.normal_force > -5e-6)
     assert history.normal_force.max() <= bound * (1.0 + 1e-6)
     assert np.all((history.slipping_fraction >= 0.0) & (history.slipping_fraction <= 1.0))
     assert history.normal_force[-1] == 0.0
