@@ -79,7 +79,7 @@ def command(
     from ..instrument.quantities import DMA
     from ..material import RouteSettings, abaqus_card, read_route
     from ..material.material_file import material_yaml
-    from ..material.route import Times
+    from ..material.route_result import Times
     from ..material.worth import REFUSE_ABOVE, WARN_ABOVE
     from ..study import Wlf
     from .laboratory import checked_origin, provenance, reading_of, write_all

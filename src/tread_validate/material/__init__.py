@@ -5,7 +5,8 @@ from .compound import compound_route, fit_surrogate, prony_series, surrogate_mod
 from .fit import PronyFit, fit_prony
 from .material_file import MaterialFile, material_schema, read_material
 from .prony import PronySeries
-from .route import MaterialRoute, RouteSettings, material_route, read_route
+from .route import material_route, read_route
+from .route_result import MaterialRoute, RouteSettings
 from .wlf import log_shift_factor, pole, referred_to, relative_shift, shift_factor
 from .zener import fractional_zener
 

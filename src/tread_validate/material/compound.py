@@ -17,7 +17,8 @@ from .exact import geometric
 from .fit import PronyFit, fit_prony
 from .material_file import read_material
 from .prony import PronySeries
-from .route import MaterialRoute, RouteSettings, read_route
+from .route import read_route
+from .route_result import MaterialRoute, RouteSettings
 from .zener import fractional_zener
 
 Array = NDArray[np.float64]

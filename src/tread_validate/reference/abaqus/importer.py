@@ -20,17 +20,11 @@ from ...yaml_text import read_mapping, write_yaml
 from ..fe_store import FeStore
 from ..filing import file_run, read_run
 from .deck_facts import DeckFacts, deck_facts
+from .table_checks import against_reaction, clock, plausible
 from .tables import Table, read_table
 
 FORCE_UNITS = {"N": 1.0, "kN": 1e3, "mN": 1e-3}
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
-DURATION_TOLERANCE = 0.01  # of the pass
-OPEN_END = 0.05  # of the peak, at both ends: corners of a mesh touch a little before the path's first touch
-LARGEST_TENSION = 0.01  # of the peak
-SAME_TIME = 1e-9  # s
-STRAIN_RANGE = (1e-4, 0.5)  # peak force over plan area over modulus: what a pressed block can have
-REACTION_TOLERANCE = 0.05
-LARGEST_SHEAR = 3.0  # peak tangential force over peak normal force
 
 
 @dataclass(frozen=True)
@@ -100,13 +94,13 @@ def import_history(
     table = read_table(source)
     checks = _identity(table, facts, choice)
     time, normal, shear, slipping = _forces(table, None if tangential is None else read_table(tangential), choice)
-    start, kept, clock_check = _clock(table, time, facts, choice)
+    start, kept, clock_check = clock(table, time, facts, choice.clock)
     time, normal, shear = time[kept] - start, normal[kept], shear[kept]
     slipping = None if slipping is None else slipping[kept]
     reaction = _reaction(table, choice)
     if reaction is not None:
-        checks.append(_against_reaction(table, reaction[kept], normal, shear))
-    checks += [clock_check, *_plausible(table, time, normal, shear, facts)]
+        checks.append(against_reaction(table, reaction[kept], normal, shear))
+    checks += [clock_check, *plausible(table, time, normal, shear, facts)]
     normal, shear = facts.whole * normal, facts.whole * shear
     version = table.notes.get("abaqus_version", "") or choice.version
     sources = [Path(source)] + ([] if tangential is None else [Path(tangential)])
@@ -229,100 +223,12 @@ def _reaction(table: Table, choice: Options) -> NDArray[np.float64] | None:
     return np.column_stack(found)
 
 
-def _against_reaction(
-    table: Table, reaction: NDArray[np.float64], normal: NDArray[np.float64], shear: NDArray[np.float64]
-) -> str:
-    """Hold the contact force against the road's reaction, which fixes its sign and its frame."""
-    contact = np.column_stack([-shear, normal])
-    scale = float(np.max(np.abs(contact)))
-    apart = float(np.max(np.abs(contact - reaction)))
-    if apart > REACTION_TOLERANCE * scale:
-        opposite = float(np.max(np.abs(contact + reaction))) <= REACTION_TOLERANCE * scale
-        raise InputError(
-            f"{table.source}: contact force against RF@ROAD_REF",
-            "the opposite sign" if opposite else f"{apart:.4g} N apart",
-            f"equal to {REACTION_TOLERANCE:.0%} of {scale:.4g} N"
-            + (" (the forces act on the road: --force-on road)" if opposite else ""),
-        )
-    return f"contact force and reaction of the road: at most {apart:.3g} N apart"
-
-
 def _at(second: Table, time: NDArray[np.float64], choice: Options) -> NDArray[np.float64]:
     own = second.values[:, 0] * TIME_UNITS[choice.time_unit]
     step = float(np.median(np.diff(time)))
     if abs(own[0] - time[0]) > step or abs(own[-1] - time[-1]) > step:
         raise InputError(f"{second.source}: time", f"{own[0]:g} to {own[-1]:g} s", f"{time[0]:g} to {time[-1]:g} s")
     return np.interp(time, own, second.values[:, 1])
-
-
-def _clock(
-    table: Table, time: NDArray[np.float64], facts: DeckFacts, choice: Options
-) -> tuple[float, NDArray[np.bool_], str]:
-    """Return when the pass starts on the table's clock, which rows belong to it, and what was found."""
-    stated = table.notes.get("clock", "")
-    wanted = stated if stated in ("step", "total") else choice.clock
-    room = DURATION_TOLERANCE * facts.pass_duration
-    whole = facts.lead_in + facts.pass_duration
-    for clock, end, start in (("step", facts.pass_duration, 0.0), ("total", whole, facts.lead_in)):
-        if wanted not in (clock, "auto") or abs(time[-1] - end) > room:
-            continue
-        kept = time >= start - SAME_TIME
-        if time[kept][0] - start > room:
-            raise InputError(
-                f"{table.source}: time, first row", f"{time[0]:g} s", f"the pass from its start at {start:g} s on"
-            )
-        if clock == "step" and not kept.all():
-            raise InputError(f"{table.source}: time, first row", f"{time[0]:g} s", "no time before the step")
-        return start, kept, f"duration: ends at {time[-1]:.6g} s on the {clock} clock, the deck's is {end:.6g} s"
-    raise InputError(
-        f"{table.source}: time, last row",
-        f"{time[-1]:g} s",
-        f"{facts.pass_duration:g} s (clock of the pass) or {whole:g} s (total time), within 1 %",
-    )
-
-
-def _plausible(
-    table: Table,
-    time: NDArray[np.float64],
-    normal: NDArray[np.float64],
-    shear: NDArray[np.float64],
-    facts: DeckFacts,
-) -> list[str]:
-    """Check sign, unit and whole contact; return what was found."""
-    where = f"{table.source}: normal force"
-    peak = float(np.max(np.abs(normal)))
-    if peak == 0.0:
-        raise InputError(where, "0 throughout", "a block that touches the road")
-    impulse = float(np.trapezoid(normal, time))
-    if impulse <= 0.0:
-        raise InputError(
-            where, f"an impulse of {impulse:.4g} N s", "compression as positive (do the forces act on the road?)"
-        )
-    lowest = float(normal.min())
-    if lowest < -LARGEST_TENSION * peak:
-        raise InputError(
-            where, f"{lowest:.4g} N of tension", f"none beyond {LARGEST_TENSION:.0%} of the peak, {peak:.4g} N"
-        )
-    strain = peak / (facts.plan_area * facts.modulus)
-    if not STRAIN_RANGE[0] <= strain <= STRAIN_RANGE[1]:
-        raise InputError(
-            where,
-            f"a peak of {peak:.4g} N, {strain:.2g} of the block's modulus times area",
-            f"{STRAIN_RANGE[0]:g} to {STRAIN_RANGE[1]:g} (is the unit N?)",
-        )
-    for end, value in (("first", normal[0]), ("last", normal[-1])):
-        if abs(value) > OPEN_END * peak:
-            raise InputError(f"{where}, {end} row", f"{value:.4g} N", "a whole pass, without contact at both ends")
-    ratio = float(np.max(np.abs(shear))) / peak
-    if ratio > LARGEST_SHEAR:
-        raise InputError(
-            f"{table.source}: tangential force", f"{ratio:.3g} times the normal peak", f"at most {LARGEST_SHEAR:g}"
-        )
-    return [
-        f"sign: normal impulse {impulse:.6g} N s, largest tension {max(0.0, -lowest):.3g} N",
-        f"unit: peak over modulus times area {strain:.3g}",
-        f"tangential over normal peak {ratio:.3g}",
-    ]
 
 
 def read_record(path: Path | str) -> dict[str, Any]:

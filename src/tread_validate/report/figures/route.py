@@ -9,7 +9,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 
 from ...geometry.trace import LevelledTrace
-from ...material.route import MaterialRoute
+from ...material.route_result import MaterialRoute
 from ...palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from ...units import MM, MPA
 from ..content import Mark
