@@ -3,102 +3,116 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Literal, cast
 
 import typer
 
 from .options import number
 
+if TYPE_CHECKING:
+    from ..material import MaterialRoute
+
+_Sweeps = Annotated[list[Path], typer.Argument(help="exports of the analyser, text or .xlsx: one file, or one a sweep")]
+_Output = Annotated[Path, typer.Option("-o", "--output", help="material file (YAML) to write")]
+_Terms = Annotated[int, typer.Option("--terms", min=1, max=60, help="exponentials besides the long-term one")]
+_Band = Annotated[
+    tuple[float, float] | None,
+    number("--band", "band_rad_s", "reduced frequencies to fit, rad/s: LOW HIGH"),
+]
+_Reference = Annotated[
+    float,
+    number("--reference-degC", "temperature_degC", "temperature of the master curve"),
+]
+_C1 = Annotated[float, number("--c1", "c1", "WLF C1 at --ts")]
+_C2 = Annotated[float, number("--c2", "c2_K", "WLF C2 at --ts, K")]
+_Ts = Annotated[
+    float,
+    number("--ts", "temperature_degC", "temperature that C1 and C2 refer to, degC"),
+]
+_Poisson = Annotated[float, number("--poissons-ratio", "poissons_ratio", "for the file and the card")]
+_Density = Annotated[float, number("--density-kg-m3", "density_kg_m3", "for the file and the card")]
+_FitWlf = Annotated[bool, typer.Option("--fit-wlf", help="fit C1 and C2 instead (three temperatures)")]
+_Free = Annotated[bool, typer.Option("--free-shift", help="lay each sweep on its neighbour instead")]
+_Energy = Annotated[
+    float | None,
+    number("--arrhenius-kJ-mol", "activation_energy_kJ_mol", "shift by this instead"),
+]
+_Shifts = Annotated[
+    Path | None, typer.Option("--shift-table", help="temperature_degC, log10_shift_factor (CSV) instead")
+]
+_Vertical = Annotated[bool, typer.Option("--vertical-shift", help="with --fit-wlf: a factor a sweep too")]
+_Times = Annotated[str, typer.Option("--times", help="relaxation times: auto, even or refined")]
+_Margins = Annotated[
+    tuple[float, float],
+    number("--margins", "margin", "g1 g2: how far times reach beyond the band"),
+]
+_LossWeight = Annotated[float, number("--loss-weight", "loss_weight", "weight of E'' against E'")]
+_Prune = Annotated[
+    float | None,
+    number("--prune", "prune_percent", "fewest terms with both RMS errors at most this, per cent"),
+]
+_Master = Annotated[bool, typer.Option("--master", help="the table is a master curve at --reference-degC")]
+_Unit = Annotated[str | None, typer.Option("--modulus-unit", help="Pa, kPa, MPa or GPa, whatever the header")]
+_FrequencyUnit = Annotated[str | None, typer.Option("--frequency-unit", help="Hz or rad/s")]
+_TemperatureUnit = Annotated[str | None, typer.Option("--temperature-unit", help="degC or K")]
+_Column = Annotated[
+    list[str] | None,
+    typer.Option("--column", help="KEY=COLUMN (heading or number), KEY one of temperature, storage, ..."),
+]
+_Confirm = Annotated[bool, typer.Option("--confirm-units", help="accept values out of the usual range")]
+_Replicates = Annotated[int, typer.Option("--resamples", min=0, max=20000, help="for the 95 % bands")]
+_Origin = Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")]
+_Source = Annotated[str, typer.Option("--source", help="where the data come from, one line")]
+_Card = Annotated[Path | None, typer.Option("--abaqus-card", help="write the ABAQUS material card here too")]
+_Figure = Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")]
+
 
 def command(
-    sweeps: Annotated[
-        list[Path], typer.Argument(help="exports of the analyser, text or .xlsx: one file, or one a sweep")
-    ],
-    output: Annotated[Path, typer.Option("-o", "--output", help="material file (YAML) to write")] = Path(
-        "material.yaml"
-    ),
-    terms: Annotated[int, typer.Option("--terms", min=1, max=60, help="exponentials besides the long-term one")] = 24,
-    band: Annotated[
-        tuple[float, float] | None,
-        number("--band", "band_rad_s", "reduced frequencies to fit, rad/s: LOW HIGH"),
-    ] = None,
-    reference: Annotated[
-        float,
-        number("--reference-degC", "temperature_degC", "temperature of the master curve"),
-    ] = 22.0,
-    c1: Annotated[float, number("--c1", "c1", "WLF C1 at --ts")] = 8.86,
-    c2: Annotated[float, number("--c2", "c2_K", "WLF C2 at --ts, K")] = 101.6,
-    ts: Annotated[
-        float,
-        number("--ts", "temperature_degC", "temperature that C1 and C2 refer to, degC"),
-    ] = 10.0,
-    poisson: Annotated[float, number("--poissons-ratio", "poissons_ratio", "for the file and the card")] = 0.47,
-    density: Annotated[float, number("--density-kg-m3", "density_kg_m3", "for the file and the card")] = 1000.0,
-    fit_wlf: Annotated[bool, typer.Option("--fit-wlf", help="fit C1 and C2 instead (three temperatures)")] = False,
-    free: Annotated[bool, typer.Option("--free-shift", help="lay each sweep on its neighbour instead")] = False,
-    energy: Annotated[
-        float | None,
-        number("--arrhenius-kJ-mol", "activation_energy_kJ_mol", "shift by this instead"),
-    ] = None,
-    shifts: Annotated[
-        Path | None, typer.Option("--shift-table", help="temperature_degC, log10_shift_factor (CSV) instead")
-    ] = None,
-    vertical: Annotated[bool, typer.Option("--vertical-shift", help="with --fit-wlf: a factor a sweep too")] = False,
-    times: Annotated[str, typer.Option("--times", help="relaxation times: auto, even or refined")] = "auto",
-    margins: Annotated[
-        tuple[float, float],
-        number("--margins", "margin", "g1 g2: how far times reach beyond the band"),
-    ] = (5.0, 5.0),
-    loss_weight: Annotated[float, number("--loss-weight", "loss_weight", "weight of E'' against E'")] = 1.0,
-    prune: Annotated[
-        float | None,
-        number("--prune", "prune_percent", "fewest terms with both RMS errors at most this, per cent"),
-    ] = None,
-    master: Annotated[bool, typer.Option("--master", help="the table is a master curve at --reference-degC")] = False,
-    unit: Annotated[str | None, typer.Option("--modulus-unit", help="Pa, kPa, MPa or GPa, whatever the header")] = None,
-    frequency_unit: Annotated[str | None, typer.Option("--frequency-unit", help="Hz or rad/s")] = None,
-    temperature_unit: Annotated[str | None, typer.Option("--temperature-unit", help="degC or K")] = None,
-    column: Annotated[
-        list[str] | None,
-        typer.Option("--column", help="KEY=COLUMN (heading or number), KEY one of temperature, storage, ..."),
-    ] = None,
-    confirm: Annotated[bool, typer.Option("--confirm-units", help="accept values out of the usual range")] = False,
-    replicates: Annotated[int, typer.Option("--resamples", min=0, max=20000, help="for the 95 % bands")] = 400,
-    origin: Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")] = "",
-    source: Annotated[str, typer.Option("--source", help="where the data come from, one line")] = "",
-    card: Annotated[Path | None, typer.Option("--abaqus-card", help="write the ABAQUS material card here too")] = None,
-    figure: Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")] = None,
+    sweeps: _Sweeps,
+    output: _Output = Path("material.yaml"),
+    terms: _Terms = 24,
+    band: _Band = None,
+    reference: _Reference = 22.0,
+    c1: _C1 = 8.86,
+    c2: _C2 = 101.6,
+    ts: _Ts = 10.0,
+    poisson: _Poisson = 0.47,
+    density: _Density = 1000.0,
+    fit_wlf: _FitWlf = False,
+    free: _Free = False,
+    energy: _Energy = None,
+    shifts: _Shifts = None,
+    vertical: _Vertical = False,
+    times: _Times = "auto",
+    margins: _Margins = (5.0, 5.0),
+    loss_weight: _LossWeight = 1.0,
+    prune: _Prune = None,
+    master: _Master = False,
+    unit: _Unit = None,
+    frequency_unit: _FrequencyUnit = None,
+    temperature_unit: _TemperatureUnit = None,
+    column: _Column = None,
+    confirm: _Confirm = False,
+    replicates: _Replicates = 400,
+    origin: _Origin = "",
+    source: _Source = "",
+    card: _Card = None,
+    figure: _Figure = None,
 ) -> None:
     """Shift and fit sweeps; write a material file that a study reads, with its quality and uncertainty.
 
     Example: tread-validate fit-prony reference_data/material/synthetic_sweeps.csv --band 0.25 2500 -o material.yaml
     """
-    from typing import get_args
-
-    from ..errors import InputError
     from ..instrument.quantities import DMA
     from ..material import RouteSettings, abaqus_card, read_route
     from ..material.material_file import material_yaml
-    from ..material.route_result import Times
-    from ..material.worth import REFUSE_ABOVE, WARN_ABOVE
     from ..study import Wlf
     from .laboratory import checked_origin, provenance, reading_of, write_all
 
-    if times not in get_args(Times):
-        raise InputError("--times", times, f"one of {', '.join(get_args(Times))}")
-    if sum((fit_wlf, free, energy is not None, shifts is not None)) > 1:
-        raise InputError("shift", "several kinds", "one of --fit-wlf, --free-shift, --arrhenius-kJ-mol, --shift-table")
-    if vertical and not fit_wlf:
-        raise InputError("--vertical-shift", "given constants", "--fit-wlf with it")
-    if band is not None and not 0 < band[0] < band[1]:
-        raise InputError("--band", f"{band[0]:g} {band[1]:g}", "0 < LOW < HIGH")
-    reading = reading_of(
-        column,
-        {"--modulus-unit": unit, "--frequency-unit": frequency_unit, "--temperature-unit": temperature_unit},
-        DMA,
-    )
+    _refuse_contradictions(times, (fit_wlf, free, energy is not None, shifts is not None), vertical, band)
+    units = {"--modulus-unit": unit, "--frequency-unit": frequency_unit, "--temperature-unit": temperature_unit}
+    reading = reading_of(column, units, DMA)
     kind, told = checked_origin(sweeps[0], origin, source)
-    wlf = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=ts)
     settings = RouteSettings(
         terms=terms,
         band=band,
@@ -114,14 +128,14 @@ def command(
         shift_table=shifts,
         replicates=replicates,
     )
+    wlf = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=ts)
     route = read_route(sweeps, wlf, reference, settings, None, confirm, master, reading)
-    text = material_yaml(
-        route.fit.series, route.wlf, kind, told, route.quality(), provenance(*sweeps), poisson, density
-    )
+    series = route.fit.series
+    text = material_yaml(series, route.wlf, kind, told, route.quality(), provenance(*sweeps), poisson, density)
     files = {output: text}
     if card is not None:
         files[card] = f"** {kind} data: {told}\n" + abaqus_card(
-            route.fit.series, route.wlf, poissons_ratio=poisson, density=density
+            series, route.wlf, poissons_ratio=poisson, density=density
         )
     write_all(files)
     if figure is not None:
@@ -129,9 +143,42 @@ def command(
 
         mark = ", synthetic" if kind == "synthetic" else ""
         draw.save(figure, (9.4, 6.6), lambda canvas: draw.material(route, canvas, mark))
+    _tell(route, f"{kind} data: {told}", reference, (c1, c2, ts), (poisson, density))
+    typer.echo(f"wrote {output}")
+
+
+def _refuse_contradictions(
+    times: str, shifts: tuple[bool, ...], vertical: bool, band: tuple[float, float] | None
+) -> None:
+    """Raise `InputError` for options that exclude each other; `shifts`: kinds asked for, the WLF fit first."""
+    from typing import get_args
+
+    from ..errors import InputError
+    from ..material.route_result import Times
+
+    if times not in get_args(Times):
+        raise InputError("--times", times, f"one of {', '.join(get_args(Times))}")
+    if sum(shifts) > 1:
+        raise InputError("shift", "several kinds", "one of --fit-wlf, --free-shift, --arrhenius-kJ-mol, --shift-table")
+    if vertical and not shifts[0]:
+        raise InputError("--vertical-shift", "given constants", "--fit-wlf with it")
+    if band is not None and not 0 < band[0] < band[1]:
+        raise InputError("--band", f"{band[0]:g} {band[1]:g}", "0 < LOW < HIGH")
+
+
+def _tell(
+    route: MaterialRoute,
+    origin: str,
+    reference: float,
+    constants: tuple[float, float, float],
+    properties: tuple[float, float],
+) -> None:
+    """Print how the files were read, how good the series is and what to beware of."""
+    from ..material.worth import REFUSE_ABOVE, WARN_ABOVE
+
     for line in route.understood:
         typer.echo(f"read: {line}")
-    typer.echo(f"{kind} data: {told}")
+    typer.echo(origin)
     for key, merit in route.quality().items():
         typer.echo(f"{key}: {merit}")
     if route.wlf_fit is not None:
@@ -139,18 +186,12 @@ def command(
             f"fitted WLF at {reference:g} degC: C1 = {route.wlf.c1:.4f} +- {1.96 * route.wlf_fit.deviations[0]:.4f}, "
             f"C2 = {route.wlf.c2_K:.2f} +- {1.96 * route.wlf_fit.deviations[1]:.2f} K (95 %)"
         )
-    told_shift = _shift_told(fit_wlf, (c1, c2, ts))
-    if settings.shift != "wlf":
-        told_shift = (
-            f"{settings.shift}; a study shifts by the nearest WLF law, C1 = {route.wlf.c1:.4g}, "
-            f"C2 = {route.wlf.c2_K:.4g} K, which misses these shifts by up to {route.wlf_apart:.3g} decades"
-        )
-    typer.echo(f"shift: {told_shift}")
+    typer.echo(f"shift: {_shift_told(route, constants)}")
     if route.overlap is not None and route.overlap.apart:
         typer.echo(
             f"warning: {route.overlap.apart} pair(s) of neighbouring sweeps share no band: nothing holds their shift"
         )
-    if (poisson, density) == (0.47, 1000.0):
+    if properties == (0.47, 1000.0):
         typer.echo("not given, so the paper's: Poisson's ratio 0.47, 1000 kg/m3")
     worst = max(route.fit.storage_rms, route.fit.loss_rms)
     if worst > WARN_ABOVE:
@@ -160,10 +201,14 @@ def command(
         typer.echo(f"warning: no bands: {route.bands_refused}")
     if not route.consistency.consistent:
         typer.echo("warning: storage and loss modulus are not consistent with each other (Kramers-Kronig)")
-    typer.echo(f"wrote {output}")
 
 
-def _shift_told(fitted: bool, constants: tuple[float, float, float]) -> str:
-    if fitted:
+def _shift_told(route: MaterialRoute, constants: tuple[float, float, float]) -> str:
+    if route.settings.shift != "wlf":
+        return (
+            f"{route.settings.shift}; a study shifts by the nearest WLF law, C1 = {route.wlf.c1:.4g}, "
+            f"C2 = {route.wlf.c2_K:.4g} K, which misses these shifts by up to {route.wlf_apart:.3g} decades"
+        )
+    if route.settings.fit_wlf:
         return "constants fitted to the overlap of the sweeps"
     return "the paper's constants, none were given" if constants == (8.86, 101.6, 10.0) else "constants as given"

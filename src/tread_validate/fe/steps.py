@@ -111,17 +111,11 @@ def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amp
         elif word == "DYNAMIC":
             _dynamic(block, current)
         elif word == "BULK VISCOSITY":
-            line = _line(block)
-            current.linear_viscosity = line.number_at(0, "linear bulk viscosity", 0.06)
-            current.quadratic_viscosity = line.number_at(1, "quadratic bulk viscosity", 1.2)
-            if current.linear_viscosity < 0 or current.quadratic_viscosity < 0:
-                raise InputError(line.where, line.text, "bulk viscosities >= 0")
+            _bulk_viscosity(block, current)
         elif word == "BOUNDARY":
             _boundary(block, mesh, amplitudes, current)
         elif word in ("CLOAD", "DLOAD", "DSLOAD"):
-            if _is_first_new(block, current):
-                current.loads = [load for load in current.loads if not load.kind.startswith(word + " ")]
-            read_loads(block, mesh, _amplitude(block, amplitudes), current.where, current.loads)
+            _loads(block, mesh, amplitudes, current)
         elif word == "CONTACT PAIR":
             _pair(block, current)
         elif word == "FIXED MASS SCALING":
@@ -135,6 +129,20 @@ def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amp
     if not steps:
         raise InputError(blocks[0].file, "no *STEP", "at least one *DYNAMIC, EXPLICIT step")
     return steps
+
+
+def _bulk_viscosity(block: KeywordBlock, step: Step) -> None:
+    line = _line(block)
+    step.linear_viscosity = line.number_at(0, "linear bulk viscosity", 0.06)
+    step.quadratic_viscosity = line.number_at(1, "quadratic bulk viscosity", 1.2)
+    if step.linear_viscosity < 0 or step.quadratic_viscosity < 0:
+        raise InputError(line.where, line.text, "bulk viscosities >= 0")
+
+
+def _loads(block: KeywordBlock, mesh: Mesh, amplitudes: dict[str, Amplitude], step: Step) -> None:
+    if _is_first_new(block, step):
+        step.loads = [load for load in step.loads if not load.kind.startswith(block.keyword + " ")]
+    read_loads(block, mesh, _amplitude(block, amplitudes), step.where, step.loads)
 
 
 def _node_history(block: KeywordBlock, mesh: Mesh, step: Step) -> None:
