@@ -54,7 +54,7 @@ ladder: $(BIN)/.installed ## Run the model ladder anew: error and cost of every 
 	@$(SNAKEMAKE) ladder
 
 map: $(BIN)/.installed gfortran ## Where each model may be believed: FE over the dimensionless groups; goes on where it was
-	@$(BIN)/tread-validate map $(STUDY) --runs $(MAP_RUNS) --minutes $(MAP_MINUTES) -o results/map
+	@$(BIN)/tread-validate map $(STUDY) --runs $(MAP_RUNS) --minutes $(MAP_MINUTES) --jobs $(CORES) -o results/map
 
 # material_pyvisco.py needs packages of its own (benchmarks/requirements-pyvisco.txt) and is run by hand
 bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory

@@ -2,34 +2,37 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
+from typing import Any
 
 from ..errors import InputError
 from ..files import write_text
 from ..provenance import commit, version
+from ..source_code import code_digest
+from ..spring.variants import code_digest as model_digest
 from ..study import Case
 from ..yaml_text import write_yaml
+from .calibration import coverage, factors, fitted, held_out
 from .design import design
 from .figures import error_figure, held_out_figure
-from .points import MESHES, run_points
-from .rule import expected_error
+from .points import MESHES, MODELS
+from .rule import Rule
+from .store import run_points
 from .table import ERRORS, Point, point_of, table_text
-
-HELD_OUT = 5
-"""Every fifth point is predicted from the others."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How much of the map is made: points, and minutes after which no new one begins."""
+    """How much of the map is made: points, minutes after which no new one begins, processes side by side."""
 
     runs: int
     minutes: float
+    jobs: int = 1
 
 
 def build(base: Case, output: Path, settings: Settings, say: Callable[[str], None]) -> tuple[Point, ...]:
@@ -39,7 +42,9 @@ def build(base: Case, output: Path, settings: Settings, say: Callable[[str], Non
     """
     begin = time.monotonic()
     cases = design(base, settings.runs)
-    done = run_points(cases, output / "points", say, lambda: time.monotonic() - begin < 60.0 * settings.minutes)
+    done = run_points(
+        cases, output / "points", say, lambda: time.monotonic() - begin < 60.0 * settings.minutes, settings.jobs
+    )
     points = [point for point in (point_of(data, MESHES[1]) for data in done) if point is not None]
     refused = sum("refused" in data for data in done)
     weak = len(done) - refused - len(points)
@@ -48,50 +53,63 @@ def build(base: Case, output: Path, settings: Settings, say: Callable[[str], Non
     say(f"{len(points)} of {settings.runs} points, {told}")
     if not points:
         raise InputError("map", "no point done", "more minutes")
+    rows = tried(cases, points)
+    for (model, quantity), found in coverage(rows).items():
+        say(f"{model}, {quantity}: {found} of the held-out errors below the limit for nine in ten")
     write_text(output / "map.csv", table_text(points))
-    bound = {str(data["bound"]["fe"]) for data in done}
-    record = {
-        "points": len(points), "refused": refused, "no_reference": weak, "asked_for": settings.runs,
-        "fe_code": sorted(bound), "models_code": done[0].get("models_bound", {}), "version": version(),
-        "commit": commit(),
-    }  # fmt: skip
-    write_yaml(output / "map.yaml", record)
-    rows = held_out(cases, points)
+    counts = {"points": len(points), "refused": refused, "no_reference": weak, "asked_for": settings.runs}
+    write_yaml(output / "map.yaml", {**counts, **_made_by(), **_worth(points, rows)})
     write_text(output / "held_out.csv", _csv(rows))
     error_figure(points, output / "figures" / "errors")
     if rows:
         held_out_figure(rows, output / "figures" / "held_out")
-        for model, share in coverage(rows).items():
-            say(f"{model}: {100 * share:.0f} % of the held-out errors below the limit for nine in ten")
     return tuple(points)
 
 
-Row = tuple[str, str, str, float, float, float]
+def _made_by() -> dict[str, Any]:
+    return {
+        "engine_code": code_digest("fe"), "models_code": {model: model_digest(model) for model in MODELS},
+        "meshes": list(MESHES), "version": version(), "commit": commit(),
+    }  # fmt: skip
 
 
-def held_out(cases: Sequence[Case], points: Sequence[Point]) -> list[Row]:
-    """Return (case, model, quantity, expected, likely, actual error) of every fifth point, from the others."""
+def _worth(points: Sequence[Point], rows: Sequence[Row]) -> dict[str, Any]:
+    """Return the factors of the rule, and the share of the held-out errors below their limits with its interval."""
+    shares = {
+        f"{model} {quantity}": {
+            "below": found.inside, "of": found.count, "interval_95": [round(end, 3) for end in found.interval]
+        }
+        for (model, quantity), found in coverage(rows).items()
+    }  # fmt: skip
+    widened = {
+        model: {each: round(value, 3) for each, value in factors(points, model).items()} for model in points[0].errors
+    }
+    return {"fitted": len(fitted(points)), "held_out": len(held_out(points)), "factors": widened, "coverage": shares}
+
+
+Row = Mapping[str, object]
+
+
+def tried(cases: Sequence[Case], points: Sequence[Point]) -> list[Row]:
+    """Return a row for each model and quantity of each held-out point inside the map: what is expected, what is."""
     by_id = {case.case_id: case for case in cases}
-    away = points[HELD_OUT - 1 :: HELD_OUT]
-    rest = [point for point in points if point not in away]
-    rows: list[Row] = []
-    for point in away:
+    rule, rows = Rule(points), list[Row]()
+    for point in held_out(points):
         for model, errors in point.errors.items():
-            found = expected_error(by_id[point.case_id], model, rest)
-            if found.normal is None:
+            found = rule.expect(by_id[point.case_id], model)
+            if found.normal is None or found.outside:
                 continue
-            for each in ERRORS:
-                expected = getattr(found, each)
-                rows.append((point.case_id, model, each, expected, found.likely[each], abs(errors[each])))
+            rows += [
+                {"case_id": point.case_id, "model": model, "quantity": each, "expected": getattr(found, each),
+                 "limit": found.likely[each], "actual": abs(errors[each])}
+                for each in ERRORS
+            ]  # fmt: skip
     return rows
 
 
-def coverage(rows: Sequence[Row]) -> dict[str, float]:
-    """Return for each model the share of the actual errors below what nine in ten should stay below."""
-    models = dict.fromkeys(row[1] for row in rows)
-    return {model: float(np.mean([row[5] <= row[4] for row in rows if row[1] == model])) for model in models}
-
-
 def _csv(rows: Sequence[Row]) -> str:
-    head = "case_id,model,quantity,expected,likely,actual\n"
-    return head + "".join(f"{','.join(row[:3])},{row[3]:.4f},{row[4]:.4f},{row[5]:.4f}\n" for row in rows)
+    text = io.StringIO()
+    writer = csv.DictWriter(text, ("case_id", "model", "quantity", "expected", "limit", "actual"), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({k: f"{v:.4f}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
+    return text.getvalue()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -44,15 +44,16 @@ def error_figure(points: Sequence[Point], path: Path) -> None:
         _save(figure, path.with_name(f"{path.name}_{quantity}"))
 
 
-def held_out_figure(rows: Sequence[tuple[str, str, str, float, float, float]], path: Path) -> None:
+def held_out_figure(rows: Sequence[Mapping[str, object]], path: Path) -> None:
     """Draw actual against expected errors of the points that the rule did not see."""
     figure = Figure(figsize=(8.6, 3.2), layout="constrained")
     FigureCanvasAgg(figure)
     for axes, quantity in zip(figure.subplots(1, 3), ("normal", "impulse", "tangential"), strict=True):
         for model in MODELS:
             color, marker = STYLES[model]
-            chosen = [row for row in rows if row[1] == model and row[2] == quantity]
-            x, y = [100.0 * row[3] for row in chosen], [100.0 * max(row[5], 1e-4) for row in chosen]
+            chosen = [row for row in rows if row["model"] == model and row["quantity"] == quantity]
+            x = [100.0 * float(str(row["expected"])) for row in chosen]
+            y = [100.0 * max(float(str(row["actual"])), 1e-4) for row in chosen]
             axes.loglog(x, y, marker, color=color, ms=4, alpha=0.8, mew=0.0, label=model)
         axes.plot([0.05, 100.0], [0.05, 100.0], color="#57606a", lw=0.8)
         axes.set(xlabel="expected error, %", title=quantity)

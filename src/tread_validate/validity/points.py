@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+import time
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from ..errors import EngineError, InputError
-from ..files import read_text, write_text
 from ..source_code import code_digest, digest_of
 from ..spring import run
 from ..spring.variants import code_digest as model_digest
@@ -27,8 +26,6 @@ MESHES = (4, 6)
 ORDER = 2.0
 """Order with which the engine's peaks converge: 2, 1, 0.5 mm on the study's rig block give -14.8, -12.2, -11.6 N."""
 
-Say = Callable[[str], None]
-
 
 def forces_of(history: Any) -> dict[str, float]:
     """Return the quantities of a history, N and N s."""
@@ -41,34 +38,86 @@ def forces_of(history: Any) -> dict[str, float]:
     }
 
 
+def fe_code() -> dict[str, str]:
+    """Return the digests of the code behind an FE part: the engine, and what makes decks."""
+    return {"engine": code_digest("fe"), "decks": digest_of(("deck.model",))}
+
+
+def deck_digests(case: Case) -> list[str]:
+    """Return the digests of the problems that the decks of both meshes pose."""
+    from ..deck import write
+    from ..inp import DeckFiles
+
+    found = []
+    for parts in MESHES:
+        with tempfile.TemporaryDirectory(prefix="tread-validate-") as folder:
+            write(meshed(case, parts), Path(folder))
+            files = DeckFiles(Path(folder) / f"{case.case_id}.inp", Path(folder) / "vfric.f")
+            found.append(files.problem.digest)
+    return found
+
+
+def models_bound(case: Case) -> dict[str, dict[str, str]]:
+    """Return what each model's part of a point belongs to: the case and the model's code."""
+    return {model: {"case_digest": case.digest(), "code": model_digest(model)} for model in MODELS}
+
+
 def fe_point(case: Case) -> dict[str, Any]:
-    """Run the engine on both meshes: their forces, the limit, how far the finer one is from it, and energy shares."""
+    """Run the engine on both meshes; never raises for what the engine refuses.
+
+    Returns
+    -------
+    dict
+        ``bound`` (case, meshes, code, decks), ``fe_<n>`` (forces), ``residual_<n>`` and ``artificial_<n>`` (energies),
+        ``unsteadiness_<n>``, ``seconds``; or ``refused``: why.
+    """
+    begin = time.monotonic()
+    found: dict[str, Any] = {}
+    decks: list[str] = []
+    try:
+        for parts in MESHES:
+            run_, digest = _fe_run(case, parts)
+            found |= run_
+            decks.append(digest)
+    except (InputError, EngineError) as error:
+        found = {"refused": str(error)}
+    bound = {"case_digest": case.digest(), "meshes": list(MESHES), "code": fe_code(), "decks": decks}
+    return {"bound": bound, **found, "seconds": round(time.monotonic() - begin, 2)}
+
+
+def limit_of(fe: Mapping[str, Any]) -> dict[str, float]:
+    """Return the forces that both meshes tend to."""
+    coarse, fine = (fe[f"fe_{parts}"] for parts in MESHES)
+    share = 1.0 / ((MESHES[1] / MESHES[0]) ** ORDER - 1.0)
+    return {name: fine[name] + share * (fine[name] - coarse[name]) for name in QUANTITIES}
+
+
+def meshed(case: Case, parts: int) -> Case:
+    """Return the case with `parts` elements per height; half of a block that z = 0 halves."""
+    whole = case.block.shape != "rectangle" or case.block.mesh is not None
+    settings = case.deck.model_copy(update={
+        "element_size_mm": case.height * 1e3 / parts, "layers": parts, "history_interval_us": _interval(case),
+        "field_frames": 1, "constant_friction_variant": False, "symmetry": "full" if whole else "half",
+    })  # fmt: skip
+    return replace(case, deck=settings)
+
+
+def _fe_run(case: Case, parts: int) -> tuple[dict[str, Any], str]:
     from ..deck import write
     from ..fe import run_deck
 
-    found: dict[str, Any] = {}
-    for parts in MESHES:
-        size = case.height * 1e3 / parts
-        settings = case.deck.model_copy(update={
-            "element_size_mm": size, "layers": parts, "history_interval_us": _interval(case), "field_frames": 1,
-            "constant_friction_variant": False,
-        })  # fmt: skip
-        meshed = replace(case, deck=settings)
-        with tempfile.TemporaryDirectory(prefix="tread-validate-") as folder:
-            write(meshed, Path(folder))
-            deck = Path(folder) / f"{case.case_id}.inp"
-            result = run_deck(deck, deck.with_name("vfric.f"))
-        energies = result.energies
-        scale = max(float(energies["internal"].max()), float(energies["external_work"].abs().max()), 1e-30)
-        found[f"fe_{parts}"] = forces_of(result.history)
-        found[f"residual_{parts}"] = float(energies["total"].abs().max()) / scale
-        found[f"artificial_{parts}"] = float(energies["artificial"].max()) / max(
-            float(energies["internal"].max()), 1e-30
-        )
-    coarse, fine = (found[f"fe_{parts}"] for parts in MESHES)
-    share = 1.0 / ((MESHES[1] / MESHES[0]) ** ORDER - 1.0)
-    found["limit"] = {name: fine[name] + share * (fine[name] - coarse[name]) for name in QUANTITIES}
-    return found
+    with tempfile.TemporaryDirectory(prefix="tread-validate-") as folder:
+        write(meshed(case, parts), Path(folder))
+        deck = Path(folder) / f"{case.case_id}.inp"
+        result = run_deck(deck, deck.with_name("vfric.f"))
+    balance = result.record["energy_balance"]
+    found = {
+        f"fe_{parts}": forces_of(result.history),
+        f"residual_{parts}": float(balance["balance_error"]),
+        f"artificial_{parts}": float(balance["artificial_share"]),
+        f"unsteadiness_{parts}": float(result.record["unsteadiness"]),
+    }
+    return found, str(result.record["deck_digest"])
 
 
 def _interval(case: Case) -> float:
@@ -78,53 +127,20 @@ def _interval(case: Case) -> float:
     return float(np.clip(1e6 * path_of(case).contact_duration / 400.0, 2.0, 100.0))
 
 
-def model_point(case: Case, models: Sequence[str] = MODELS) -> dict[str, dict[str, float]]:
-    """Run every model on the case."""
-    return {model: forces_of(run(case, model)) for model in models}
-
-
-def run_points(cases: Sequence[Case], folder: Path, say: Say, more: Callable[[], bool]) -> list[Mapping[str, Any]]:
-    """Return the points that are done, running those that are missing or stale while `more()` holds.
-
-    Each point is one file, ``folder/<case_id>.json``, written when it is whole: a study that is stopped goes on where
-    it was. A point that the engine or a model refuses says why and counts as run.
-    """
-    fe, models = f"{code_digest('fe')} {digest_of(('deck.model',))}", {model: model_digest(model) for model in MODELS}
-    points: list[Mapping[str, Any]] = []
-    for case in cases:
-        path = folder / f"{case.case_id}.json"
-        known = _read(path)
-        bound = {"case_digest": case.digest(), "fe": fe}
-        point = known if known is not None and known.get("bound") == bound else None
-        if point is None:
-            if not more():
-                continue
-            point = {"case_id": case.case_id, "bound": bound, "kind": _kind(case), "groups": asdict(groups_of(case))}
-            try:
-                point |= fe_point(case)
-            except (InputError, EngineError) as error:
-                point["refused"] = str(error)
-            say(f"{case.case_id}: {point.get('refused', 'run')}")
-            write_text(path, json.dumps(point, indent=1))
-        if "refused" not in point and point.get("models_bound") != models:
-            try:
-                point = {**point, "models": model_point(case), "models_bound": models}
-            except (InputError, EngineError) as error:
-                point = {**point, "refused": str(error)}
-            write_text(path, json.dumps(point, indent=1))
-        points.append(point)
-    return points
-
-
-def _kind(case: Case) -> str:
-    return f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
-
-
-def _read(path: Path) -> dict[str, Any] | None:
-    if not path.is_file():
-        return None
+def model_point(case: Case, model: str) -> dict[str, Any]:
+    """Run a model on the case: its forces, or ``refused``: why."""
     try:
-        data = json.loads(read_text(path))
-    except json.JSONDecodeError:
-        return None
-    return data if isinstance(data, dict) else None
+        return forces_of(run(case, model))
+    except (InputError, EngineError) as error:
+        return {"refused": str(error)}
+
+
+def whole_point(case: Case, fe: Mapping[str, Any], models: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Put both parts of a point together; it says why where either was refused."""
+    kind = f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
+    point = {**fe, "case_id": case.case_id, "kind": kind, "groups": asdict(groups_of(case))}
+    refused = [f"{model}: {found['refused']}" for model, found in models.items() if "refused" in found]
+    if "refused" in fe:
+        return point
+    point["limit"] = limit_of(fe)
+    return point | ({"refused": "; ".join(refused)} if refused else {"models": dict(models)})

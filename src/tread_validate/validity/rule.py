@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-
-import numpy as np
+from functools import cache
 
 from ..friction import Coulomb
 from ..history import History
 from ..study import Case
-from .groups import NAMES, coordinates, groups_of
+from .calibration import NEAREST, factors, fitted, neighbours, ranges
+from .groups import NAMES, Groups, coordinates, groups_of
+from .made_by import made_by_other_code
 from .table import ERRORS, Point, committed
 
-NEAREST = 8
-"""Points of the same kind (path and mounting) that an expectation rests on."""
-WIDENED = 2.0
-"""Factor on the limit for nine in ten: leaving one point out asks for 1.3, the points held out together for 2."""
 SLIDES = 0.5
 """Creep over the sticking limit up to which the law of slip hardly matters: the map's friction is constant."""
 SLACK = 0.05
@@ -37,7 +34,11 @@ class Expectation:
     outside : tuple of str
         Why the case is outside the map; empty inside it.
     points : int
-        How many points of its kind the map has.
+        How many points of its kind the rule has.
+    worst : mapping of str to float
+        The largest errors among the nearest points.
+    stale : str
+        Empty, or that model or engine have changed since the map was made.
     """
 
     normal: float | None
@@ -46,14 +47,75 @@ class Expectation:
     likely: Mapping[str, float]
     outside: tuple[str, ...]
     points: int
+    worst: Mapping[str, float]
+    stale: str = ""
 
     def __str__(self) -> str:
         """Say it in one line."""
+        stale = f" [{self.stale}]" if self.stale else ""
         if self.normal is None:
-            return f"outside the map: {'; '.join(self.outside)}"
+            return f"outside the map: {'; '.join(self.outside)}{stale}"
         assert self.tangential is not None
-        found = f"expected error of N {100 * self.normal:.1f} %, of T {100 * self.tangential:.1f} %"
+        found = " and ".join(
+            f"of {name} {100 * of:.1f} % (nine in ten below {100 * self.likely[each]:.1f} %)"
+            for name, each, of in (("N", "normal", self.normal), ("T", "tangential", self.tangential))
+        )
+        found = f"expected error {found}{stale}"
         return found if not self.outside else f"outside the map ({'; '.join(self.outside)}): nearest points {found}"
+
+
+class Rule:
+    """The rule of a map's points: those that are not held out, and how far their errors are widened."""
+
+    def __init__(self, points: Sequence[Point]) -> None:
+        self.basis = fitted(points)
+        self._factors: dict[str, dict[str, float]] = {}
+
+    def factors(self, model: str) -> dict[str, float]:
+        """Return the factor on the local scale for each of `ERRORS`."""
+        if model not in self._factors:
+            self._factors[model] = factors(self.basis, model)
+        return self._factors[model]
+
+    def expect(self, case: Case, model: str, stale: str = "") -> Expectation:
+        """Return what error to expect of a model's prediction of a case whose creep ratio is known."""
+        kind = f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
+        known = [point for point in self.basis if point.kind == kind and model in point.errors]
+        outside = ("sipes",) if case.block.sipes else ()
+        if len(known) <= NEAREST:
+            said = f"{len(known)} points of kind {kind} for {model}"
+            return Expectation(None, None, None, {}, (*outside, said), len(known), {}, stale)
+        here = groups_of(case)
+        near = neighbours(coordinates(here), known, ranges(known)[2])
+        expected = {each: near.expected(model, each) for each in ERRORS}
+        widened = self.factors(model)
+        return Expectation(
+            normal=expected["normal"],
+            impulse=expected["impulse"],
+            tangential=expected["tangential"],
+            likely={each: widened[each] * near.scale(model, each) for each in ERRORS},
+            outside=(*outside, *_beyond(case, here, known)),
+            points=len(known),
+            worst={each: near.worst(model, each) for each in ERRORS},
+            stale=stale,
+        )
+
+
+def _beyond(case: Case, groups: Groups, known: Sequence[Point]) -> list[str]:
+    """Return the groups that lie beyond the points, and whether the law of slip matters."""
+    steady = isinstance(case.friction, Coulomb) and (
+        case.friction.kinetic_coefficient >= case.friction.static_coefficient
+    )
+    found = []
+    if not steady and abs(groups.creep) > SLIDES:
+        found.append("much slip under a friction law that depends on it")
+    low, high, size = ranges(known)
+    for name, at, least, most, range_ in zip(NAMES, coordinates(groups), low, high, size, strict=True):
+        slack = SLACK * range_
+        below = at < least - slack and name not in ("relaxation", "speed", "skew")
+        if below or at > most + slack:
+            found.append(name)
+    return found
 
 
 def expected_error(case: Case, model: str, points: Sequence[Point] | None = None) -> Expectation:
@@ -62,43 +124,16 @@ def expected_error(case: Case, model: str, points: Sequence[Point] | None = None
     Parameters
     ----------
     points : sequence of Point, optional
-        The map; the committed one where left out.
+        The map, points held out among them; the committed one where left out.
     """
-    points = committed() if points is None else points
-    kind = f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
-    known = [point for point in points if point.kind == kind and model in point.errors]
-    outside: list[str] = []
-    if case.block.sipes:
-        outside.append("sipes")
-    if len(known) <= NEAREST:
-        said = f"{len(known)} points of kind {kind} for {model}"
-        return Expectation(None, None, None, {}, (*outside, said), len(known))
-    groups = groups_of(case)
-    steady = isinstance(case.friction, Coulomb) and (
-        case.friction.kinetic_coefficient >= case.friction.static_coefficient
-    )
-    if not steady and abs(groups.creep) > SLIDES:
-        outside.append("much slip under a friction law that depends on it")
-    here = coordinates(groups)
-    places = np.array([coordinates(point.groups) for point in known])
-    low, high = places.min(axis=0), places.max(axis=0)
-    size = np.maximum(high - low, 1e-9)
-    for name, at, least, most, range_ in zip(NAMES, here, low, high, size, strict=True):
-        slack = SLACK * range_
-        below = at < least - slack and name not in ("relaxation", "speed", "skew")
-        if below or at > most + slack:
-            outside.append(name)
-    distance = np.sqrt(np.mean(((places - here) / size) ** 2, axis=1))
-    nearest = np.argsort(distance)[:NEAREST]
-    weight = 1.0 / np.maximum(distance[nearest], 0.02)
-    weight /= weight.sum()
-    values = {each: np.array([known[k].errors[model][each] for k in nearest]) for each in ERRORS}
-    expected = {each: float(np.sqrt(weight @ found**2)) for each, found in values.items()}
-    ninth = {each: float(np.quantile(np.abs(found), 0.9)) for each, found in values.items()}
-    likely = {each: WIDENED * max(ninth[each], 1.64 * expected[each]) for each in ERRORS}
-    return Expectation(
-        expected["normal"], expected["impulse"], expected["tangential"], likely, tuple(outside), len(known)
-    )
+    if points is not None:
+        return Rule(points).expect(case, model)
+    return _committed_rule().expect(case, model, made_by_other_code(model))
+
+
+@cache
+def _committed_rule() -> Rule:
+    return Rule(committed())
 
 
 def with_expectation(history: History, case: Case, model: str) -> History:

@@ -10,9 +10,12 @@ from hypothesis import strategies as st
 
 from tread_validate.errors import InputError
 from tread_validate.study import load_study
-from tread_validate.validity.build import coverage, held_out
+from tread_validate.validity import store
+from tread_validate.validity.build import tried
+from tread_validate.validity.calibration import Coverage, conformal, coverage, factors, fitted, held_out
 from tread_validate.validity.design import RANGES, design
 from tread_validate.validity.groups import coordinates, groups_of
+from tread_validate.validity.points import MESHES, MODELS
 from tread_validate.validity.rule import NEAREST, expected_error
 from tread_validate.validity.table import Point, committed, is_reference, point_of, read_table, relative, table_text
 
@@ -106,24 +109,145 @@ def test_a_refused_point_is_none(cases):
     assert point_of({"refused": "why"}, 6) is None
 
 
-@pytest.mark.parametrize("fault", [{"residual_6": 0.02}, {"artificial_6": 0.03}, {"fe_6": {"normal": 90.0}}, {}])
+@pytest.mark.parametrize(
+    "fault", [{"residual_6": 0.02}, {"artificial_6": 0.03}, {"unsteadiness_6": 0.01}, {"fe_6": {"normal": 90.0}}, {}]
+)
 def test_an_fe_run_that_is_no_reference_makes_no_point(fault):
-    """Energy residual above 1 %, hourglass energy above 2 %, or 5 % from the limit of its meshes."""
-    data = {"residual_6": 0.0, "artificial_6": 0.001, "fe_6": {"normal": 99.0}, "limit": {"normal": 100.0}}
+    """Energy residual above 1 %, hourglass energy above 2 %, T that scatters, or 5 % from the limit of its meshes."""
+    data = {
+        "residual_6": 0.0,
+        "artificial_6": 0.001,
+        "unsteadiness_6": 0.001,
+        "fe_6": {"normal": 99.0},
+        "limit": {"normal": 100.0},
+    }
     assert is_reference({**data, **fault}, 6) == (not fault)
 
 
 def test_the_rule_finds_an_error_that_depends_on_the_groups(cases):
     """Errors that grow with D/h are predicted from the neighbours: nine in ten held-out ones below the stated limit."""
     points = [point(case, normal=2.0 * case.interference / case.height, impulse=0.01) for case in cases]
-    rows = held_out(cases, points)
+    rows = tried(cases, points)
     assert len(rows) > 20
-    assert coverage(rows)["coupled"] >= 0.9
+    assert coverage(rows)["coupled", "normal"].interval[1] > 0.9
+    assert {row["case_id"] for row in rows} <= {each.case_id for each in held_out(points)}
+
+
+@settings(max_examples=8, deadline=None)
+@given(seed=st.integers(0, 10_000), scatter=st.floats(0.1, 1.5))
+def test_limits_of_nine_in_ten_hold_for_points_that_the_rule_never_saw(cases, seed, scatter):
+    """Log-normal errors of any scatter: over many maps the share of held-out errors below the limit is nine in ten.
+
+    Here one map at a time, so that the binomial interval (99.99 %) of its points is what may be asked.
+    """
+    sizes = 0.01 * np.exp(scatter * np.random.default_rng(seed).standard_normal(len(cases)))
+    points = [point(case, normal=float(size)) for case, size in zip(cases, sizes, strict=True)]
+    found = coverage(tried(cases, points))["coupled", "normal"]
+    assert found.inside >= found.count * 0.9 - 4.5 * math.sqrt(found.count * 0.09)
+
+
+def test_fitted_and_held_out_points_share_none_and_leave_none(cases):
+    points = [point(case) for case in cases]
+    one, two = ([each.case_id for each in part(points)] for part in (fitted, held_out))
+    assert not set(one) & set(two)
+    assert len(one) + len(two) == len(points)
+    assert len(two) == len(points) // 3
+    # a point that is no reference moves no other from one part to the other
+    assert [each.case_id for each in held_out(points[1:])] == two
+
+
+def test_conformal_quantile_is_the_ceil_nine_tenths_of_n_plus_one_smallest():
+    assert conformal(range(1, 20)) == 18
+    assert conformal(range(1, 11)) == 10
+    assert conformal(range(1, 9)) == math.inf
+
+
+def test_coverage_says_its_exact_binomial_interval():
+    """Clopper and Pearson, 18 of 20: 68.3 to 98.8 %."""
+    low, high = Coverage(18, 20).interval
+    assert (low, high) == (pytest.approx(0.6830, abs=1e-4), pytest.approx(0.9877, abs=1e-4))
+    assert Coverage(0, 5).interval[0] == 0.0
+    assert Coverage(5, 5).interval[1] == 1.0
+    assert str(Coverage(18, 20)) == "90 % of 20 (95 % interval 68 to 99 %)"
+
+
+def test_errors_of_one_size_need_no_widening(cases):
+    points = [point(case, normal=0.01, impulse=0.02, tangential=0.03) for case in cases]
+    assert factors(points, "coupled") == pytest.approx(dict.fromkeys(("normal", "impulse", "tangential"), 1.0))
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    """Engine and models that take no time and count how often they are asked; their code's digests can be changed."""
+    asked = {"fe": 0, **dict.fromkeys(MODELS, 0)}
+    code = {"engine": "e1", "decks": "d1", **{model: f"{model}1" for model in MODELS}}
+    forces = {"normal": 1.0, "impulse": 1.0, "positive": 0.1, "negative": -0.1}
+
+    def fe_point(case):
+        asked["fe"] += 1
+        bound = {"case_digest": case.digest(), "meshes": list(MESHES), "code": store.fe_code(), "decks": ["same"] * 2}
+        return {"bound": bound, "fe_4": forces, "fe_6": forces, "seconds": 0.0}
+
+    def model_point(case, model):
+        asked[model] += 1
+        return forces
+
+    monkeypatch.setattr(store, "fe_point", fe_point)
+    monkeypatch.setattr(store, "model_point", model_point)
+    monkeypatch.setattr(store, "fe_code", lambda: {name: code[name] for name in ("engine", "decks")})
+    monkeypatch.setattr(store, "deck_digests", lambda case: [code.get("text", "same")] * 2)
+    monkeypatch.setattr(
+        store, "models_bound", lambda case: {m: {"case_digest": case.digest(), "code": code[m]} for m in MODELS}
+    )
+    return asked, code
+
+
+def run_again(cases, folder, asked, more=lambda: True):
+    before = dict(asked)
+    points = store.run_points(cases, folder, lambda line: None, more)
+    return points, {name: asked[name] - before[name] for name in asked if asked[name] != before[name]}
+
+
+def test_a_point_is_run_again_only_where_its_own_code_changed(cases, tmp_path, counted):
+    """A model's code moves that model alone; the engine's moves FE alone; the same decks by other code nothing."""
+    asked, code = counted
+    two = cases[:2]
+    assert run_again(two, tmp_path, asked)[1] == dict.fromkeys(("fe", *MODELS), 2)
+    assert run_again(two, tmp_path, asked)[1] == {}
+    code["coupled"] = "coupled2"
+    points, ran = run_again(two, tmp_path, asked)
+    assert ran == {"coupled": 2}
+    assert all("refused" not in each for each in points)
+    code["decks"] = "d2"
+    assert run_again(two, tmp_path, asked)[1] == {}
+    code["text"] = "other"
+    assert run_again(two, tmp_path, asked)[1] == {"fe": 2}
+    code["text"] = "same"
+    code["engine"] = "e2"
+    assert run_again(two, tmp_path, asked)[1] == {"fe": 2}
+
+
+def test_points_of_another_engine_are_never_mixed_with_those_of_this_one(cases, tmp_path, counted):
+    """Where time is up before they could run again, they are left out and not taken over."""
+    asked, code = counted
+    assert len(run_again(cases[:3], tmp_path, asked)[0]) == 3
+    code["engine"] = "e2"
+    points, ran = run_again(cases[:3], tmp_path, asked, more=lambda: asked["fe"] < 4)
+    assert len(points) == 1
+    assert ran == {"fe": 1}
+    assert len(run_again(cases[:3], tmp_path, asked)[0]) == 3
+
+
+def test_a_damaged_point_is_run_again(cases, tmp_path, counted):
+    asked, _ = counted
+    run_again(cases[:1], tmp_path, asked)
+    (tmp_path / f"{cases[0].case_id}.fe.json").write_text('{"bound"', encoding="utf-8")
+    assert run_again(cases[:1], tmp_path, asked)[1] == {"fe": 1}
 
 
 def test_the_rule_says_where_it_ends(cases, base):
     points = [point(case, normal=0.01) for case in cases]
-    inside = next(case for case in cases[8:] if case.block.mounting == "flat" and not case.is_rig)
+    inside = next(case for case in cases[9:] if case.block.mounting == "flat" and not case.is_rig)
     found = expected_error(inside, "coupled", points)
     assert found.outside == ()
     assert found.normal == pytest.approx(0.01)
