@@ -9,15 +9,14 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from . import element_kernel as kernel
+from .element_full_kernel import POINTS
+from .gauss import CORNERS, gauss_points, highest_frequency_squared, mean_gradients
 from .mesh import Mesh
 from .model import Model
 from .relaxation import Relaxation, relaxation_of
 
 Floats = NDArray[np.float64]
 LANES = kernel.LANES
-CORNERS = np.array(
-    [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]], dtype=float
-)
 HOURGLASS_PATTERNS = np.stack(
     [
         CORNERS[:, 1] * CORNERS[:, 2],
@@ -30,33 +29,6 @@ HOURGLASS_PATTERNS = np.stack(
 HOURGLASS_COEFFICIENT = 0.05
 
 
-def mean_gradients(corners: Floats) -> tuple[Floats, Floats]:
-    """Return the volume (m,) and the mean shape-function gradients (m, 3, 8) of hexahedra.
-
-    Exact integrals over the element by 2 x 2 x 2 Gauss points; `corners` is (m, 8, 3).
-    """
-    volume = np.zeros(corners.shape[0])
-    total = np.zeros((corners.shape[0], 3, 8))
-    for point in CORNERS / np.sqrt(3.0):
-        factors = 1.0 + CORNERS * point
-        local = np.stack(
-            [
-                CORNERS[:, 0] * factors[:, 1] * factors[:, 2],
-                CORNERS[:, 1] * factors[:, 0] * factors[:, 2],
-                CORNERS[:, 2] * factors[:, 0] * factors[:, 1],
-            ]
-        )
-        jacobian = (local / 8.0) @ corners
-        determinant = np.linalg.det(jacobian)
-        volume += determinant
-        with np.errstate(all="ignore"):
-            usable = np.where(np.abs(determinant)[:, None, None] > 0, jacobian, np.eye(3))
-        total += determinant[:, None, None] * np.linalg.solve(
-            usable, np.broadcast_to(local / 8.0, (len(corners), 3, 8))
-        )
-    return volume, total / np.where(volume == 0, 1.0, volume)[:, None, None]
-
-
 @dataclass
 class Blocks:
     """Element data in the layout of the kernel, and the same per element.
@@ -65,7 +37,11 @@ class Blocks:
     ----------
     conn : (blocks, 8, LANES) int32; geo, state : (blocks, rows, LANES); kind : (blocks,) int32
     order : (blocks * LANES,) int
-        Element index in each lane, -1 where a lane is empty.
+        Element index in each lane, -1 where a lane is empty; a fully integrated element has one for each Gauss point.
+    reduced_blocks : int
+        Blocks of one-point elements; those of Gauss points come after them.
+    full : (f,) int
+        The fully integrated elements; point_volume (f, 8) and point_gradients (f, 8, 3, 8) are theirs.
     spectra : list of Relaxation
         One per row of the material tables (material and temperature).
     gradients : (m, 3, 8); volume, density, shear, bulk, hourglass, bulk_linear, damping : (m,)
@@ -93,6 +69,10 @@ class Blocks:
     slots: NDArray[np.int32]
     slot_start: NDArray[np.int32]
     connectivity: NDArray[np.int64]
+    reduced_blocks: int
+    full: NDArray[np.int64]
+    point_volume: Floats
+    point_gradients: Floats
 
     @property
     def terms(self) -> int:
@@ -104,10 +84,11 @@ class Blocks:
 
         With lumped mass rho V/8 and M = sum b b^T over the nodes, the dilatation and shear of the one-point element
         give 8 (lambda tr M + 2 G max eig M)/rho; it reduces to 4 c^2 sum 1/l^2 for a nearly incompressible brick.
-        Gradients follow the deformation when F - 1, shape (m, 3, 3), is given.
+        Gradients follow the deformation when F - 1, shape (m, 3, 3), is given. A fully integrated element has its own
+        stiffness matrix instead.
         """
         trace, largest = self._moments(gradient_of_displacement)
-        return self._frequency_squared(trace, largest)
+        return self._frequency_squared(trace, largest, gradient_of_displacement)
 
     def stable_increments(self, gradient_of_displacement: Floats) -> Floats:
         """Return a bound on each element's stable increment under the bulk viscosity that is set, (m,).
@@ -116,7 +97,7 @@ class Blocks:
         dilatation, beta that of the material.
         """
         trace, largest = self._moments(gradient_of_displacement)
-        omega = np.sqrt(self._frequency_squared(trace, largest))
+        omega = np.sqrt(self._frequency_squared(trace, largest, gradient_of_displacement))
         ratio = 4.0 * self.bulk_linear * trace / (self.density * omega) + 0.5 * self.damping * omega
         return np.asarray(2.0 * (np.sqrt(1.0 + ratio**2) - ratio) / omega, dtype=np.float64)
 
@@ -130,10 +111,21 @@ class Blocks:
         largest: Floats = np.linalg.eigvalsh(m)[:, 2].astype(np.float64)
         return np.asarray(np.trace(m, axis1=1, axis2=2), dtype=np.float64), largest
 
-    def _frequency_squared(self, trace: Floats, largest: Floats) -> Floats:
+    def _frequency_squared(self, trace: Floats, largest: Floats, gradient_of_displacement: Floats | None) -> Floats:
         lame = np.maximum(self.bulk - 2.0 / 3.0 * self.shear, 0.0)
         bulk = 8.0 * (lame * trace + 2.0 * self.shear * largest) / self.density
-        return np.asarray(np.maximum(bulk, self.hourglass / (self.density * self.volume)), dtype=np.float64)
+        found = np.maximum(bulk, self.hourglass / (self.density * self.volume))
+        if self.full.size:
+            volume, gradients = self.point_volume, self.point_gradients
+            if gradient_of_displacement is not None:
+                f = gradient_of_displacement[self.full] + np.eye(3)
+                volume = volume * np.linalg.det(f)[:, None]
+                gradients = np.linalg.solve(np.swapaxes(f, 1, 2)[:, None], gradients).astype(np.float64)
+            own = self.full
+            found[own] = highest_frequency_squared(
+                volume, gradients, self.shear[own], self.bulk[own], self.density[own]
+            )
+        return np.asarray(found, dtype=np.float64)
 
 
 def pack(model: Model, duration: float) -> Blocks:
@@ -147,16 +139,21 @@ def pack(model: Model, duration: float) -> Blocks:
     mesh = model.mesh
     corners = mesh.coordinates[mesh.connectivity]
     volume, gradients = mean_gradients(corners)
-    bad = np.flatnonzero(~(volume > 0))
+    full = np.flatnonzero(mesh.full)
+    point_volume, point_gradients = gauss_points(corners[full])
+    least = volume.copy()
+    least[full] = np.minimum(least[full], 8.0 * point_volume.min(axis=1, initial=np.inf))
+    bad = np.flatnonzero(~(least > 0))
     if bad.size:
         label = mesh.element_labels[bad[0]]
-        raise InputError(f"element {label}", f"volume {volume[bad[0]]:g}", "a positive volume (node order of C3D8R)")
+        raise InputError(f"element {label}", f"volume {least[bad[0]]:g}", "a positive volume (node order of C3D8R)")
     kinds, spectra, section_of = _kinds(model, duration)
     shear = np.array([spectra[k].shear for k in kinds])
     bulk = np.array([spectra[k].bulk for k in kinds])
     density = np.array([model.sections[s].material.density for s in section_of])
     hourglass = _hourglass_stiffness(model, section_of, kinds, spectra, gradients, volume)
-    order = _order(kinds)
+    hourglass[full] = 0.0
+    order, reduced_blocks = _order(kinds, mesh.full)
     blocks = Blocks(
         conn=np.zeros((0, 8, LANES), dtype=np.int32),
         geo=np.zeros((order.size // LANES, kernel.GEO_ROWS, LANES)),
@@ -177,6 +174,10 @@ def pack(model: Model, duration: float) -> Blocks:
         slots=np.zeros(0, dtype=np.int32),
         slot_start=np.zeros(0, dtype=np.int32),
         connectivity=mesh.connectivity,
+        reduced_blocks=reduced_blocks,
+        full=full,
+        point_volume=point_volume,
+        point_gradients=point_gradients,
     )
     _fill(blocks, mesh, corners)
     set_masses(blocks, mesh)
@@ -226,13 +227,20 @@ def _hourglass_stiffness(
     return out
 
 
-def _order(kinds: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the element in each lane: elements of one kind in their order, padded to whole blocks with -1."""
+def _order(kinds: NDArray[np.int64], full: NDArray[np.bool_]) -> tuple[NDArray[np.int64], int]:
+    """Return the element in each lane, and the number of blocks of one-point elements, which come first.
+
+    Elements of one kind in their order, fully integrated ones once a Gauss point, padded to whole blocks with -1.
+    """
     parts = []
-    for kind in np.unique(kinds):
-        own = np.flatnonzero(kinds == kind)
-        parts.append(np.concatenate([own, np.full(-own.size % LANES, -1)]))
-    return np.concatenate(parts)
+    reduced_blocks = 0
+    for whole, lanes in ((False, 1), (True, POINTS)):
+        for kind in np.unique(kinds[full == whole]):
+            own = np.repeat(np.flatnonzero((kinds == kind) & (full == whole)), lanes)
+            parts.append(np.concatenate([own, np.full(-own.size % LANES, -1)]))
+        if not whole:
+            reduced_blocks = sum(part.size for part in parts) // LANES
+    return np.concatenate(parts), reduced_blocks
 
 
 def _fill(blocks: Blocks, mesh: Mesh, corners: Floats) -> None:
@@ -249,6 +257,11 @@ def _fill(blocks: Blocks, mesh: Mesh, corners: Floats) -> None:
     rows[used, kernel.GEO_G : kernel.GEO_VOLUME] = offsets.reshape(own.size, 12)
     rows[used, kernel.GEO_VOLUME] = blocks.volume[own]
     rows[used, kernel.GEO_HOURGLASS] = blocks.hourglass[own]
+    points = used & (np.arange(order.size) >= blocks.reduced_blocks * LANES)
+    at = np.searchsorted(blocks.full, order[points]), np.flatnonzero(points) % POINTS
+    rows[points, : kernel.GEO_G] = blocks.point_gradients[at].reshape(-1, 24)
+    rows[points, kernel.GEO_G : kernel.GEO_VOLUME] = 0.0
+    rows[points, kernel.GEO_VOLUME] = blocks.point_volume[at]
     blocks.geo[:] = rows.reshape(-1, LANES, kernel.GEO_ROWS).transpose(0, 2, 1)
     blocks.state[:, kernel.STATE_U : kernel.STATE_U + 3] = 1.0
     lane = np.flatnonzero(used)

@@ -128,6 +128,7 @@ class Simulation:
             work=np.zeros((CHUNKS, WORK_ROWS * LANES)),
             slots=b.slots,
             slot_start=b.slot_start,
+            reduced=np.array([b.reduced_blocks]),
         )
 
     def displacement(self) -> Floats:

@@ -7,6 +7,7 @@ from numba import prange
 
 from ..kernels import kernel
 from .contact_kernel import apply_friction, coulomb, face_areas, find_contacts
+from .element_full_kernel import full_block_forces
 from .element_kernel import block_forces
 from .kernel_data import (
     COULOMB,
@@ -36,11 +37,18 @@ OK, INVERTED, BAD_FRICTION = 0, 1, 2
 def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def]
     """Do one chunk of the element loop; return its least volume ratio."""
     total = elements.kind.size
-    return block_forces(
-        chunk * total // chunks, (chunk + 1) * total // chunks, dt, u, elements.conn, elements.geo, elements.state,
-        elements.hist, elements.decay, elements.gain, elements.elastic, elements.kind, elements.out,
-        elements.work[chunk],
+    first, last = chunk * total // chunks, (chunk + 1) * total // chunks
+    reduced = min(max(elements.reduced[0], first), last)
+    worst = block_forces(
+        first, reduced, dt, u, elements.conn, elements.geo, elements.state, elements.hist, elements.decay,
+        elements.gain, elements.elastic, elements.kind, elements.out, elements.work[chunk],
     )  # fmt: skip
+    if reduced == last:
+        return worst
+    return min(worst, full_block_forces(
+        reduced, last, dt, u, elements.conn, elements.geo, elements.state, elements.hist, elements.decay,
+        elements.gain, elements.elastic, elements.kind, elements.out, elements.work[chunk],
+    ))  # fmt: skip
 
 
 @kernel()

@@ -15,7 +15,7 @@ NO_FRICTION, COULOMB, USER = 0, 1, 2  # kind of an interaction
 
 
 class Elements(NamedTuple):
-    """Element data of the kernel (see `block_forces`)."""
+    """Element data of the kernels (see `block_forces`); `reduced` (1,): the number of blocks of one-point elements."""
 
     conn: Any
     geo: Any
@@ -29,6 +29,7 @@ class Elements(NamedTuple):
     work: Any
     slots: Any
     slot_start: Any
+    reduced: Any
 
 
 class Nodes(NamedTuple):

@@ -40,12 +40,15 @@ class Mesh:
     faces : dict of surface name to (k, 4) int
         Node indices of element-based surfaces, right-hand normal into the body.
     rigid_surfaces : dict of surface name to `RigidSurface`
+    full : (m,) bool
+        Whether an element is integrated fully (C3D8) or at one point (C3D8R).
     """
 
     node_labels: Ints
     coordinates: Floats
     element_labels: Ints
     connectivity: Ints
+    full: NDArray[np.bool_]
     node_sets: dict[str, Ints] = field(default_factory=dict)
     element_sets: dict[str, Ints] = field(default_factory=dict)
     faces: dict[str, Ints] = field(default_factory=dict)
@@ -72,10 +75,10 @@ def read_mesh(blocks: list[KeywordBlock]) -> Mesh:
     element_blocks = [b for b in blocks if b.keyword == "ELEMENT"]
     if not node_blocks or not element_blocks:
         missing = "*ELEMENT" if node_blocks else "*NODE"
-        raise InputError(blocks[0].file if blocks else "deck", f"no {missing}", "a mesh of C3D8R elements")
+        raise InputError(blocks[0].file if blocks else "deck", f"no {missing}", "a mesh of C3D8R or C3D8 elements")
     labels, coordinates = _nodes(node_blocks)
-    element_labels, connectivity = _elements(element_blocks, labels)
-    mesh = Mesh(labels, coordinates, element_labels, connectivity)
+    element_labels, connectivity, full = _elements(element_blocks, labels)
+    mesh = Mesh(labels, coordinates, element_labels, connectivity, full)
     sets = Sets(labels, element_labels, lambda members: _nodes_of(members, mesh))
     for block in node_blocks:
         if block.parameters.get("NSET"):
@@ -144,15 +147,18 @@ def _element_rows(block: KeywordBlock) -> Ints:
     return np.array(table, dtype=np.int64).reshape(-1, 9)
 
 
-def _elements(blocks: list[KeywordBlock], labels: Ints) -> tuple[Ints, Ints]:
-    array = np.concatenate([_element_rows(block) for block in blocks])
+def _elements(blocks: list[KeywordBlock], labels: Ints) -> tuple[Ints, Ints, NDArray[np.bool_]]:
+    rows = [_element_rows(block) for block in blocks]
+    array = np.concatenate(rows)
     if not array.size:
-        raise InputError(blocks[0].where, "no element", "at least one C3D8R")
-    array = array[np.argsort(array[:, 0], kind="stable")]
+        raise InputError(blocks[0].where, "no element", "at least one C3D8R or C3D8")
+    order = np.argsort(array[:, 0], kind="stable")
+    full = np.repeat([block.value("TYPE") == "C3D8" for block in blocks], [len(own) for own in rows])[order]
+    array = array[order]
     twice = np.flatnonzero(np.diff(array[:, 0]) == 0)
     if twice.size:
         raise InputError(blocks[0].where, f"element {array[twice[0], 0]} twice", "each element once")
-    return array[:, 0], _index(array[:, 1:].ravel(), labels, blocks[0].where, "node").reshape(-1, 8)
+    return array[:, 0], _index(array[:, 1:].ravel(), labels, blocks[0].where, "node").reshape(-1, 8), full
 
 
 def _index(wanted: Ints, labels: Ints, where: str, what: str) -> Ints:

@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 from ..kernels import kernel
 from .blocks import Blocks
+from .element_full_kernel import POINTS
+from .gauss import mean_of_points
 
 Floats = NDArray[np.float64]
 FIRST_STEPS = 80
@@ -140,20 +142,49 @@ class StableIncrement:
 
     def __init__(self, blocks: Blocks, free: NDArray[np.bool_]) -> None:
         self.blocks = blocks
-        lame = blocks.bulk - 2.0 / 3.0 * blocks.shear
-        self.stiffness = Stiffness(
-            blocks.connectivity, np.empty_like(blocks.gradients), np.empty_like(blocks.volume), lame, blocks.shear
-        )
+        self._gather(blocks)
         root = np.sqrt(np.divide(1.0, blocks.mass, out=np.zeros_like(blocks.mass), where=free & (blocks.mass > 0.0)))
         self.root = np.repeat(root[:, None], 3, axis=1)
         self.mode: Floats | None = None
 
+    def _gather(self, b: Blocks) -> None:
+        """Set up the rows of the stiffness: one-point elements, Gauss points, fully integrated elements.
+
+        Gauss points resist distortion only, with -2/3 of the shear modulus in the place of Lame's first; what resists
+        the change of volume of a fully integrated element is one row with its mean gradients and the bulk modulus.
+        """
+        whole = np.zeros(b.volume.size, dtype=bool)
+        whole[b.full] = True
+        one, points = ~whole, np.repeat(b.full, POINTS)
+        shear = np.concatenate([b.shear[one], b.shear[points], np.zeros(b.full.size)])
+        bulk = np.concatenate([b.bulk[one], np.zeros(points.size), b.bulk[b.full]])
+        self.connectivity = np.concatenate([b.connectivity[one], b.connectivity[points]])
+        self.gradients = np.concatenate([b.gradients[one], b.point_gradients.reshape(-1, 3, 8)])
+        self.volume = np.concatenate([b.volume[one], b.point_volume.ravel()])
+        self.stiffness = Stiffness(
+            np.concatenate([self.connectivity, b.connectivity[b.full]]),
+            np.zeros((shear.size, 3, 8)),
+            np.zeros(shear.size),
+            bulk - 2.0 / 3.0 * shear,
+            shear,
+        )
+
+    def _deform(self, displacement: Floats) -> None:
+        """Let the rows of the stiffness follow the mesh, displaced by (n, 3)."""
+        own = self.volume.size
+        full = self.blocks.full.size
+        gradients, volume = self.stiffness.gradients, self.stiffness.volume
+        deform(self.connectivity, self.gradients, self.volume, displacement, gradients[:own], volume[:own])
+        if full:
+            at = own - POINTS * full
+            volume[own:], gradients[own:] = mean_of_points(
+                volume[at:own].reshape(-1, POINTS), gradients[at:own].reshape(-1, POINTS, 3, 8)
+            )
+
     def frequency_squared(self, displacement: Floats) -> float:
         """Return the square of the highest angular frequency at a displacement (n, 3), hourglass stiffness included."""
         b = self.blocks
-        deform(
-            b.connectivity, b.gradients, b.volume, displacement, self.stiffness.gradients, self.stiffness.volume
-        )  # fmt: skip
+        self._deform(displacement)
         steps = NEXT_STEPS
         if self.mode is None:
             steps = FIRST_STEPS

@@ -39,7 +39,7 @@ SUBSET: dict[str, Keyword] = {
     "HEADING": Keyword("model", {}),
     "PREPRINT": Keyword("model", {"ECHO": ANY, "MODEL": ANY, "HISTORY": ANY, "CONTACT": ANY}),
     "NODE": Keyword("model", {"NSET": ANY}),
-    "ELEMENT": Keyword("model", {"TYPE": ("C3D8R",), "ELSET": ANY}, ("TYPE",)),
+    "ELEMENT": Keyword("model", {"TYPE": ("C3D8R", "C3D8"), "ELSET": ANY}, ("TYPE",)),
     "NSET": Keyword("model", {"NSET": ANY, "GENERATE": ANY, "ELSET": ANY, "INTERNAL": ANY, "UNSORTED": ANY}, ("NSET",)),
     "ELSET": Keyword("model", {"ELSET": ANY, "GENERATE": ANY, "INTERNAL": ANY, "UNSORTED": ANY}, ("ELSET",)),
     "SURFACE": Keyword("model", {"NAME": ANY, "TYPE": ("ELEMENT", "CYLINDER"), "INTERNAL": ANY}, ("NAME",)),

@@ -12,9 +12,13 @@ from tread_validate.fe.stress import element_stress
 
 PRONY = [(0.25, 2e-4), (0.2, 2e-3), (0.15, 2e-2), (0.1, 2e-1)]
 THETA0, C1, C2 = 22.0, 7.9241, 113.6
+BOTH = pytest.mark.parametrize("element", ["C3D8R", "C3D8"])
 
 
-def test_distorted_patch_under_linear_motion_has_one_stress_and_no_inner_force(tmp_path: Path, fe: ModuleType) -> None:
+@BOTH
+def test_distorted_patch_under_linear_motion_has_one_stress_and_no_inner_force(
+    tmp_path: Path, fe: ModuleType, element: str
+) -> None:
     """Boundary nodes move as u = A X t/T and all nodes start with that velocity: the exact motion stays linear.
 
     Exact: inner nodes stay on A X (no net force) and every element has the same stress. Without bulk viscosity, whose
@@ -34,7 +38,7 @@ def test_distorted_patch_under_linear_motion_has_one_stress_and_no_inner_force(t
     rows = [f"{n + 1}, {d + 1}, {d + 1}, {float(velocity[n, d])!r}\n" for n in outer for d in range(3)]
     start = [f"{n + 1}, {d + 1}, {float(velocity[n, d])!r}\n" for n in range(len(points)) for d in range(3)]
     text = (
-        block.text() + fe.elastic(20.0, 0.45)
+        block.text(element) + fe.elastic(20.0, 0.45)
         + "*INITIAL CONDITIONS, TYPE=VELOCITY\n" + "".join(start)
         + fe.step(period, "*BULK VISCOSITY\n0., 0.\n", "*BOUNDARY, TYPE=VELOCITY\n" + "".join(rows))
     )  # fmt: skip
@@ -46,12 +50,13 @@ def test_distorted_patch_under_linear_motion_has_one_stress_and_no_inner_force(t
     assert np.ptp(stress, axis=0).max() < 1e-10 * np.abs(stress).max()
 
 
-def test_block_turned_rigidly_through_two_radians_keeps_no_stress(tmp_path: Path, fe: ModuleType) -> None:
+@BOTH
+def test_block_turned_rigidly_through_two_radians_keeps_no_stress(tmp_path: Path, fe: ModuleType, element: str) -> None:
     """Exact: zero stress in a rigid rotation. Tolerance 1e-10 of E: rounding summed over the increments."""
     block = fe.brick(2, 2, 2, 2.0, 2.0, 2.0)
     period = 1e-3
     text = (
-        block.text() + fe.elastic(20.0, 0.47)
+        block.text(element) + fe.elastic(20.0, 0.47)
         + "*NODE, NSET=REF\n900, 5., 3., -2.\n*RIGID BODY, REF NODE=900, TIE NSET=ALL\n"
         + fe.step(period, f"*BOUNDARY, TYPE=VELOCITY\nREF, 1, 3\nREF, 4, 4, {800.0!r}\nREF, 5, 5, {-500.0!r}\n"
                           f"REF, 6, 6, {1760.0!r}\n")
@@ -65,8 +70,11 @@ def test_block_turned_rigidly_through_two_radians_keeps_no_stress(tmp_path: Path
     assert np.linalg.norm(moved[0] - moved[-1]) == pytest.approx(diagonal, rel=1e-12)
 
 
+@BOTH
 @pytest.mark.parametrize("temperature", [22.0, 45.0])
-def test_one_element_relaxes_as_the_relaxation_modulus(tmp_path: Path, fe: ModuleType, temperature: float) -> None:
+def test_one_element_relaxes_as_the_relaxation_modulus(
+    tmp_path: Path, fe: ModuleType, temperature: float, element: str
+) -> None:
     """Strain e rises linearly over t1, then holds: force = A e/t1 int_{t-t1}^t E(s) ds, E shifted by the WLF law.
 
     Tolerance 0.1 %: the strain of 1e-4 makes finite-strain terms of that order, inertia is below 1e-5.
@@ -75,7 +83,7 @@ def test_one_element_relaxes_as_the_relaxation_modulus(tmp_path: Path, fe: Modul
     block = fe.brick(1, 1, 1, 1.0, 1.0, 1.0)
     modulus, strain, rise, period = 30.0, 1e-4, 4e-4, 8e-3
     text = (
-        block.text()
+        block.text(element)
         + fe.elastic(modulus, 0.47, extra=f"*VISCOELASTIC, TIME=PRONY\n{terms}*TRS\n{THETA0}, {C1}, {C2}\n")
         + f"*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, {temperature}\n"
         + f"*AMPLITUDE, NAME=A\n0., 0., {rise}, 1.\n"
