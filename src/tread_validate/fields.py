@@ -23,6 +23,13 @@ class Label:
 
 
 @dataclass(frozen=True)
+class WhereGiven:
+    """Marks an optional field that counts only where it is given: without it a case is what it was before the key."""
+
+    why: str
+
+
+@dataclass(frozen=True)
 class Numerics:
     """Marks settings of one solver: they decide its discretisation error, not the problem."""
 

@@ -32,7 +32,10 @@ except InputError as error:
     raise WorkflowError(str(error)) from None
 
 CASES = [case.case_id for case in STUDY_CASES]
-DATA_FILES = sorted({str(path) for case in STUDY_CASES for path in case.input_files()})
+DATA_FILES = sorted(
+    {str(path) for case in STUDY_CASES for path in case.input_files()}
+    | {str(path) for path in study.library_files()}
+)
 ENGINE = study.model.engine
 RUNS = {
     "embedded": "fe",

@@ -62,7 +62,7 @@ def case_file(case: Case) -> doc.CaseFile:
 def _compound(case: Case) -> doc.Compound:
     compound = case.compound
     series = prony_series(compound, case.root)
-    warm: PronySeries = series.at_temperature(case.temperature, compound.wlf)
+    warm: PronySeries = series.at_temperature(case.temperature, compound.time_shift)
     shift = float(warm.relaxation_times[0] / series.relaxation_times[0]) if series.relaxation_times.size else 1.0
     return doc.Compound(
         name=case.compound_name,
@@ -78,7 +78,7 @@ def _compound(case: Case) -> doc.Compound:
         density_kg_m3=compound.density_kg_m3,
         data_temperature_degC=series.reference_temperature,
         shift_factor=_short(shift),
-        wlf=doc.Wlf(**compound.wlf.model_dump()),
+        wlf=doc.Wlf(**compound.wlf.model_dump()) if compound.shift is None else None,
     )
 
 

@@ -69,7 +69,7 @@ class Compound(Named):
     density_kg_m3: Positive
     data_temperature_degC: FiniteFloat = Field(description="at which the compound was measured or stated")
     shift_factor: Positive = Field(description="relaxation times here over those at the data temperature")
-    wlf: Wlf
+    wlf: Wlf | None = Field(description="null where the compound shifts by another law; see shift_factor")
 
 
 class Constant(Frozen):

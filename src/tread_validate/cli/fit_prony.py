@@ -11,6 +11,7 @@ from .options import number
 
 if TYPE_CHECKING:
     from ..material import MaterialRoute
+    from ..study import TimeShift
 
 _Sweeps = Annotated[list[Path], typer.Argument(help="exports of the analyser, text or .xlsx: one file, or one a sweep")]
 _Output = Annotated[Path, typer.Option("-o", "--output", help="material file (YAML) to write")]
@@ -106,7 +107,6 @@ def command(
     from ..instrument.quantities import DMA
     from ..material import RouteSettings, abaqus_card, read_route
     from ..material.material_file import material_yaml
-    from ..study import Wlf
     from .laboratory import checked_origin, provenance, reading_of, write_all
 
     _refuse_contradictions(times, (fit_wlf, free, energy is not None, shifts is not None), vertical, band)
@@ -123,19 +123,17 @@ def command(
         largest_error=None if prune is None else prune / 100.0,
         fit_wlf=fit_wlf,
         vertical="fitted" if vertical else "none",
-        shift="free" if free else "arrhenius" if energy is not None else "table" if shifts is not None else "wlf",
-        activation_energy=energy or 0.0,
-        shift_table=shifts,
+        free=free,
         replicates=replicates,
     )
-    wlf = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=ts)
-    route = read_route(sweeps, wlf, reference, settings, None, confirm, master, reading)
+    law = _law_of((c1, c2, ts), energy, shifts)
+    route = read_route(sweeps, law, reference, settings, None, confirm, master, reading)
     series = route.fit.series
-    text = material_yaml(series, route.wlf, kind, told, route.quality(), provenance(*sweeps), poisson, density)
+    text = material_yaml(series, route.law, kind, told, route.quality(), provenance(*sweeps), poisson, density)
     files = {output: text}
     if card is not None:
         files[card] = f"** {kind} data: {told}\n" + abaqus_card(
-            series, route.wlf, poissons_ratio=poisson, density=density
+            series, route.law, poissons_ratio=poisson, density=density
         )
     write_all(files)
     if figure is not None:
@@ -145,6 +143,19 @@ def command(
         draw.save(figure, (9.4, 6.6), lambda canvas: draw.material(route, canvas, mark))
     _tell(route, f"{kind} data: {told}", reference, (c1, c2, ts), (poisson, density))
     typer.echo(f"wrote {output}")
+
+
+def _law_of(constants: tuple[float, float, float], energy: float | None, table: Path | None) -> TimeShift:
+    """Return the law to shift by: a table, an activation energy in kJ/mol, or WLF constants C1, C2 (K) and Ts (degC)."""
+    from ..material.shifts import read_shift_table
+    from ..study import ArrheniusShift, Wlf
+
+    if table is not None:
+        return read_shift_table(table)
+    if energy is not None:
+        return ArrheniusShift(kind="arrhenius", activation_energy_kJ_mol=energy)
+    c1, c2, ts = constants
+    return Wlf(c1=c1, c2_K=c2, reference_temperature_degC=ts)
 
 
 def _refuse_contradictions(
@@ -182,9 +193,10 @@ def _tell(
     for key, merit in route.quality().items():
         typer.echo(f"{key}: {merit}")
     if route.wlf_fit is not None:
+        fitted, (d1, d2) = route.wlf_fit.wlf, route.wlf_fit.deviations
         typer.echo(
-            f"fitted WLF at {reference:g} degC: C1 = {route.wlf.c1:.4f} +- {1.96 * route.wlf_fit.deviations[0]:.4f}, "
-            f"C2 = {route.wlf.c2_K:.2f} +- {1.96 * route.wlf_fit.deviations[1]:.2f} K (95 %)"
+            f"fitted WLF at {reference:g} degC: C1 = {fitted.c1:.4f} +- {1.96 * d1:.4f}, "
+            f"C2 = {fitted.c2_K:.2f} +- {1.96 * d2:.2f} K (95 %)"
         )
     typer.echo(f"shift: {_shift_told(route, constants)}")
     if route.overlap is not None and route.overlap.apart:
@@ -204,10 +216,13 @@ def _tell(
 
 
 def _shift_told(route: MaterialRoute, constants: tuple[float, float, float]) -> str:
-    if route.settings.shift != "wlf":
+    from ..material.time_shift import told
+    from ..study import Wlf
+
+    if not isinstance(route.law, Wlf):
         return (
-            f"{route.settings.shift}; a study shifts by the nearest WLF law, C1 = {route.wlf.c1:.4g}, "
-            f"C2 = {route.wlf.c2_K:.4g} K, which misses these shifts by up to {route.wlf_apart:.3g} decades"
+            f"{'free: ' if route.settings.free else ''}{told(route.law)}; in the file as it is (the nearest WLF law "
+            f"would miss it by up to {route.wlf_apart:.3g} decades)"
         )
     if route.settings.fit_wlf:
         return "constants fitted to the overlap of the sweeps"

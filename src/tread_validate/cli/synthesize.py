@@ -42,7 +42,7 @@ def command(
     from .laboratory import write_all
 
     loaded = load_study(study)
-    compound = next((c for c in loaded.model.compounds.values() if isinstance(c, FractionalZener)), None)
+    compound = next((c for c in loaded.compounds().values() if isinstance(c, FractionalZener)), None)
     if compound is None:
         raise InputError(f"{study}: compounds", "no fractional_zener", "the surrogate that the sweeps are drawn from")
     friction = next((f for f in loaded.model.friction_laws.values() if isinstance(f, Huemer)), None)

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from ..geometry import Path
 from ..material import prony_series
+from ..material.time_shift import told
 from ..material.wlf import referred_to
-from ..study import Case
+from ..study import Case, Wlf
 from ..units import DECK_DENSITY, DECK_LENGTH, DECK_STRESS, US
 from .form import Form
 from .inputs import Inputs
@@ -116,11 +117,13 @@ def hourglass_note(kind: str) -> str:
 
 
 def material(case: Case) -> list[str]:
-    """Section and compound: instantaneous moduli, Prony series of one ratio for shear and bulk, WLF shift."""
+    """Section and compound: instantaneous moduli, Prony series of one ratio for shear and bulk, time shift."""
     compound = case.compound
     series = prony_series(compound, case.root)
     ratios = series.moduli / series.instantaneous_modulus
-    c1, c2 = referred_to(compound.wlf, series.reference_temperature)
+    law = compound.time_shift
+    if not isinstance(law, Wlf):  # no *TRS of its own: the times stand as they are at the run's temperature
+        series = series.at_temperature(case.temperature, law)
     lines = [] if case.deck.hourglass in EMBEDDED_HOURGLASS else [comment(hourglass_note(case.deck.hourglass))]
     lines += [
         keyword("SECTION CONTROLS", NAME="BLOCK_CONTROLS", HOURGLASS=case.deck.hourglass),
@@ -144,9 +147,13 @@ def material(case: Case) -> list[str]:
             comment("g_i, k_i, tau_i: constant Poisson's ratio means one ratio for shear and bulk"),
             keyword("VISCOELASTIC", TIME="PRONY"),
             table([ratios, ratios, series.relaxation_times], ["%.10g", "%.10g", "%.9g"]),
-            keyword("TRS"),
-            f"{number(series.reference_temperature)}, {number(c1)}, {number(c2)}",
         ]
+        if isinstance(law, Wlf):
+            c1, c2 = referred_to(law, series.reference_temperature)
+            lines += [keyword("TRS"), f"{number(series.reference_temperature)}, {number(c1)}, {number(c2)}"]
+        else:
+            lines.append(comment(f"tau_i at {case.temperature:g} degC, shifted by {told(law)}; another temperature"))
+            lines.append(comment("needs a deck of its own"))
     return lines
 
 

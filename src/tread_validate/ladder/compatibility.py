@@ -39,16 +39,16 @@ def compatibility_rows(cases: Sequence[Case], seed: int = 2010) -> list[dict[str
     if not rig:
         return []
     compound = rig[0].compound
-    wlf, data = compound.wlf, compound.data_temperature_degC
-    table = rig_table(rig, TIMES, wlf, data)
+    law, data = compound.time_shift, compound.data_temperature_degC
+    table = rig_table(rig, TIMES, law, data)
     warm, cold = table.temperatures[-1], table.temperatures[0]
-    decades = float(-np.log10(relative_shift(warm, cold, wlf)))
+    decades = float(-np.log10(relative_shift(warm, cold, law)))
     rows = [
         _row("published", "Table 1, finite elements, rectangle", (A_V, A_THETA), A_V_SD, note="to be met at once"),
         *_power_laws(table.speeds, decades, warm - cold),
     ]
     series = prony_series(compound, rig[0].root)
-    own = rig_table(rig, series.relaxation_times, wlf, data)
+    own = rig_table(rig, series.relaxation_times, law, data)
     found = own.coefficients(np.append(series.moduli, series.long_term_modulus))
     rows.append(_row("the study's compound", "independent springs", found.pair, found.spread))
     rows += _bells(table)

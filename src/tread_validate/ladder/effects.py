@@ -68,7 +68,7 @@ def face_forces(case: Case, settings: CoupledSettings | None = None, **physics: 
 
 def elastic(case: Case) -> PronySeries:
     """Return an elastic solid with the relaxation modulus of the case's compound half-way through the contact."""
-    series = prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
+    series = prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.time_shift)
     modulus = float(series.relaxation_modulus(0.5 * path_of(case).contact_duration))
     return PronySeries(modulus, np.zeros(1), np.ones(1), case.temperature)
 

@@ -16,7 +16,7 @@ from scipy.signal import lfilter
 
 from ..geometry import Path, path_of
 from ..material import relative_shift
-from ..study import Case, Wlf
+from ..study import Case, TimeShift
 
 Array = NDArray[np.float64]
 
@@ -96,7 +96,7 @@ class RigTable:
         return Coefficients(a_v.ravel(), (ratio - 1.0) / span, a_v_gradient.reshape(-1, terms), ratio_g / span)
 
 
-def rig_table(cases: Sequence[Case], times: Array, wlf: Wlf, reference: float) -> RigTable:
+def rig_table(cases: Sequence[Case], times: Array, law: TimeShift, reference: float) -> RigTable:
     """Return the table of rig `cases` (one shape) for terms of relaxation `times` (s) at `reference` (degC).
 
     Cases at 0.3 mm are left out, as the paper does.
@@ -110,7 +110,7 @@ def rig_table(cases: Sequence[Case], times: Array, wlf: Wlf, reference: float) -
     for j, depth in enumerate(interferences):
         path = path_of(by_key[temperatures[0], depth, speeds[0]])
         for i, temperature in enumerate(temperatures):
-            shift = float(relative_shift(temperature, reference, wlf))
+            shift = float(relative_shift(temperature, reference, law))
             for k, speed in enumerate(speeds):
                 basis[i, j, k] = _responses(path, times * shift * speed)
     return RigTable(np.array(speeds), tuple(temperatures), basis)

@@ -7,7 +7,8 @@ from .material_file import MaterialFile, material_schema, read_material
 from .prony import PronySeries
 from .route import material_route, read_route
 from .route_result import MaterialRoute, RouteSettings
-from .wlf import log_shift_factor, pole, referred_to, relative_shift, shift_factor
+from .time_shift import relative_shift
+from .wlf import log_shift_factor, pole, referred_to, shift_factor
 from .zener import fractional_zener
 
 __all__ = [

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..instrument import Reading
 from ..provenance import sha256_file
-from ..study import Compound, FractionalZener, PronyCompound, PronyFile, SweepFile
+from ..study import Compound, FractionalZener, PronyCompound, PronyFile, SpringPots, SweepFile
 from ..units import MPA
 from .collocation import relaxation_times
 from .exact import geometric
@@ -19,11 +19,13 @@ from .material_file import read_material
 from .prony import PronySeries
 from .route import read_route
 from .route_result import MaterialRoute, RouteSettings
+from .spring_pots import spring_pots
 from .zener import fractional_zener
 
 Array = NDArray[np.float64]
 
 SURROGATE_POINTS_PER_DECADE = 20
+TURN = 6.283185307179586  # rad
 DIGITS = 7  # of a fitted number, so that decks and digests do not hang on the last bits of a library
 
 
@@ -43,7 +45,7 @@ def prony_series(compound: Compound, root: Path | str | None = None) -> PronySer
             np.array([term.relaxation_time_s for term in terms]),
             compound.data_temperature_degC,
         )
-    if isinstance(compound, FractionalZener):
+    if isinstance(compound, FractionalZener | SpringPots):
         return rounded(fit_surrogate(compound).series)
     path = (Path(root) if root is not None else Path()) / compound.file
     digest = sha256_file(path) if path.is_file() else ""
@@ -51,8 +53,8 @@ def prony_series(compound: Compound, root: Path | str | None = None) -> PronySer
 
 
 @lru_cache(maxsize=64)
-def fit_surrogate(compound: FractionalZener) -> PronyFit:
-    """Fit the Prony series of a fractional Zener law, sampled over the compound's band at 20 points a decade."""
+def fit_surrogate(compound: FractionalZener | SpringPots) -> PronyFit:
+    """Fit the Prony series of a fractional law, sampled over the compound's band at 20 points a decade."""
     low, high = compound.fit.band_rad_s
     points = max(round(SURROGATE_POINTS_PER_DECADE * np.log10(high / low)), compound.fit.terms) + 1
     w = geometric(low, high, points)
@@ -61,8 +63,11 @@ def fit_surrogate(compound: FractionalZener) -> PronyFit:
     return fit_prony(w, modulus.real, modulus.imag, times, compound.data_temperature_degC)
 
 
-def surrogate_modulus(compound: FractionalZener, angular_frequency: Array) -> NDArray[np.complex128]:
-    """Return E*(w) in Pa of a fractional Zener compound at its data temperature; w in rad/s, any shape."""
+def surrogate_modulus(compound: FractionalZener | SpringPots, angular_frequency: Array) -> NDArray[np.complex128]:
+    """Return E*(w) in Pa of a compound given by a fractional law, at its data temperature; w in rad/s, any shape."""
+    if isinstance(compound, SpringPots):
+        branches = [[(pot.modulus_MPa * MPA, pot.phase_deg / 90.0) for pot in branch] for branch in compound.branches]
+        return spring_pots(angular_frequency, TURN * compound.reference_frequency_Hz, branches)
     return fractional_zener(
         angular_frequency,
         compound.long_term_modulus_MPa * MPA,
@@ -77,7 +82,7 @@ def _from_file(compound: PronyFile | SweepFile, path: Path, digest: str) -> Pron
     """Read once per content: `digest` is there for the cache."""
     if isinstance(compound, SweepFile):
         return rounded(sweep_route(compound, path).fit.series)
-    return read_material(path).series_at(compound.data_temperature_degC, compound.wlf, str(path))
+    return read_material(path).series_at(compound.data_temperature_degC, compound.time_shift, str(path))
 
 
 def compound_route(compound: Compound, root: Path | str | None = None) -> MaterialRoute | None:
@@ -111,7 +116,7 @@ def sweep_route(compound: SweepFile, path: Path, replicates: int = 0) -> Materia
         compound.columns.model_dump(exclude_none=True),
         {f"--{name}-unit": unit for name, unit in compound.units.model_dump(exclude_none=True).items()},
     )
-    return read_route(path, compound.wlf, compound.data_temperature_degC, settings, reading=reading)
+    return read_route(path, compound.time_shift, compound.data_temperature_degC, settings, reading=reading)
 
 
 def rounded(series: PronySeries) -> PronySeries:

@@ -1,4 +1,4 @@
-"""Master curve: isothermal sweeps shifted to one temperature, with given or fitted WLF constants."""
+"""Master curve: isothermal sweeps shifted to one temperature, and WLF constants fitted to it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..study import Wlf
 from .exact import power_of_ten
 from .sweep import Sweep
-from .wlf import referred_to, relative_shift
+from .wlf import referred_to
 
 Array = NDArray[np.float64]
 VerticalShift = Literal["none", "fitted"]
@@ -60,20 +60,16 @@ class MasterCurve:
 
 def shift(
     sweeps: tuple[Sweep, ...],
-    wlf: Wlf,
+    log_factors: Array,
     reference_temperature: float,
     vertical: Array | None = None,
-    log_factors: Array | None = None,
 ) -> MasterCurve:
     """Return the master curve at `reference_temperature` in degC; `vertical` multiplies the moduli of each sweep.
 
-    `log_factors`, log10 a_T of each sweep, go before `wlf`.
+    `log_factors` (k,) are log10 a_T of each sweep, 0 at the reference temperature.
     """
     temperatures = np.array([sweep.temperature for sweep in sweeps])
-    if log_factors is None:
-        factors = relative_shift(temperatures, reference_temperature, wlf)
-    else:
-        factors = power_of_ten(log_factors)
+    factors = power_of_ten(log_factors)
     heights = np.ones(len(sweeps)) if vertical is None else vertical
     w = np.concatenate([s.angular_frequency * a for s, a in zip(sweeps, factors, strict=True)])
     number = np.concatenate([np.full(s.line.size, k) for k, s in enumerate(sweeps)])

@@ -11,12 +11,14 @@ from pydantic import Field
 
 from ..errors import InputError, one_line
 from ..model_file import read_model
-from ..study import PronyCompound, Wlf
+from ..study import PronyCompound, ShiftTable, TimeShift, Wlf
 from ..units import MPA
 from .prony import PronySeries
-from .wlf import relative_shift
+from .time_shift import LN_10, log_relative_shift, told
 
-SAME_SHIFT = 0.01  # relative: a study's WLF constants may differ from the file's by this much over 40 K
+SAME_SHIFT = 0.01  # relative: a study's shift may differ from the file's by this much over 40 K
+REACH = np.linspace(-20.0, 20.0, 9).tolist()  # K, where the two are compared
+FEWEST = 3
 
 
 class MaterialFile(PronyCompound):
@@ -35,26 +37,30 @@ class MaterialFile(PronyCompound):
             self.data_temperature_degC,
         )
 
-    def series_at(self, temperature: float, wlf: Wlf, where: str = "material file") -> PronySeries:
-        """Return the series at `temperature` in degC, shifted by the study's `wlf`.
+    def series_at(self, temperature: float, law: TimeShift, where: str = "material file") -> PronySeries:
+        """Return the series at `temperature` in degC, shifted by the study's `law`.
 
-        Raises `InputError` where the study's constants shift otherwise than those that the data were shifted by.
+        Raises `InputError` where the study shifts otherwise than the data were shifted.
         """
-        there = np.array([self.data_temperature_degC - 20.0, self.data_temperature_degC + 20.0])
-        try:
-            of_file = relative_shift(there, self.data_temperature_degC, self.wlf)
-            of_study = relative_shift(there, self.data_temperature_degC, wlf)
-        except InputError:
-            of_file = of_study = np.ones(2)
-        if np.any(np.abs(np.log(of_study / of_file)) > SAME_SHIFT):
-            c = self.wlf
+        if not self._same_shift(law):
             raise InputError(
-                f"{where}: wlf",
-                f"C1 {wlf.c1:g}, C2 {wlf.c2_K:g} K at {wlf.reference_temperature_degC:g} degC in the study",
-                f"the constants that the data were shifted by: C1 {c.c1:g}, C2 {c.c2_K:g} K at "
-                f"{c.reference_temperature_degC:g} degC",
+                f"{where}: wlf or shift",
+                f"{told(law)} in the study",
+                f"the law that the data were shifted by: {told(self.time_shift)}",
             )
-        return self.series().at_temperature(temperature, wlf)
+        return self.series().at_temperature(temperature, law)
+
+    def _same_shift(self, law: TimeShift) -> bool:
+        """Whether two laws agree to 1 % within 20 K of the data's temperature, where both have a meaning."""
+        own, apart = self.time_shift, []
+        for offset in REACH:
+            there = self.data_temperature_degC + offset
+            try:
+                pair = [float(log_relative_shift(there, self.data_temperature_degC, one)) for one in (own, law)]
+            except InputError:
+                continue
+            apart.append(abs(pair[1] - pair[0]) * LN_10)
+        return law == own or (len(apart) >= FEWEST and max(apart) <= SAME_SHIFT)
 
 
 def material_schema() -> dict[str, Any]:
@@ -69,7 +75,7 @@ def read_material(path: Path | str) -> MaterialFile:
 
 def material_yaml(
     series: PronySeries,
-    wlf: Wlf,
+    law: TimeShift,
     origin: str,
     source: str,
     quality: Mapping[str, float | int | bool | str],
@@ -86,8 +92,7 @@ def material_yaml(
         f"poissons_ratio: {poissons_ratio:g}",
         f"density_kg_m3: {density:g}",
         f"data_temperature_degC: {series.reference_temperature:g}",
-        f"wlf: {{c1: {wlf.c1:.7g}, c2_K: {wlf.c2_K:.7g}, "
-        f"reference_temperature_degC: {wlf.reference_temperature_degC:g}}}",
+        *_shift_lines(law),
         f"long_term_modulus_MPa: {series.long_term_modulus / MPA:.7g}",
         "terms:",
     ]
@@ -99,6 +104,16 @@ def material_yaml(
         lines.append(f"{name}:" if table else f"{name}: {{}}")
         lines += [f"  {key}: {_scalar(value)}" for key, value in table.items()]
     return "\n".join(lines) + "\n"
+
+
+def _shift_lines(law: TimeShift) -> list[str]:
+    if isinstance(law, Wlf):
+        ts = law.reference_temperature_degC
+        return [f"wlf: {{c1: {law.c1:.7g}, c2_K: {law.c2_K:.7g}, reference_temperature_degC: {ts:g}}}"]
+    if isinstance(law, ShiftTable):
+        rows = [f"    - [{temperature:.7g}, {log:.7g}]" for temperature, log in law.points]
+        return ["shift:", "  kind: table", "  points:", *rows]
+    return [f"shift: {{kind: arrhenius, activation_energy_kJ_mol: {law.activation_energy_kJ_mol:.7g}}}"]
 
 
 def _exponent(value: float) -> str:

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
-from ..study import Wlf
-from .wlf import relative_shift
+from ..study import TimeShift
+from .time_shift import relative_shift
 
 
 @dataclass(frozen=True)
@@ -71,10 +71,10 @@ class PronySeries:
         x = np.asarray(angular_frequency, dtype=np.float64)[..., None] * self.relaxation_times
         return np.asarray((x / (1.0 + x * x)) @ self.moduli, dtype=np.float64)
 
-    def at_temperature(self, temperature: float, wlf: Wlf) -> PronySeries:
+    def at_temperature(self, temperature: float, law: TimeShift) -> PronySeries:
         """Return the series at another temperature in degC: tau_i(T) = tau_i a_T(T)/a_T(reference), moduli as they are.
 
-        Raises `InputError` at or below the WLF pole.
+        Raises `InputError` where `law` has no meaning: at or below a WLF pole, outside a table.
         """
-        shift = float(relative_shift(temperature, self.reference_temperature, wlf))
+        shift = float(relative_shift(temperature, self.reference_temperature, law))
         return replace(self, relaxation_times=self.relaxation_times * shift, reference_temperature=float(temperature))

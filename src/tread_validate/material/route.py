@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..instrument import Reading
-from ..study import Wlf
+from ..study import TimeShift, Wlf
 from .bands import bands, grid
 from .collocation import relaxation_times
 from .describe import describe, scatters
@@ -21,9 +21,10 @@ from .master import MasterCurve, WlfFit, fit_wlf, shift
 from .reduce import prune, refine_times
 from .rich import rich_curve
 from .route_result import MaterialRoute, RouteSettings
-from .shifts import arrhenius, free_shifts, nearest_wlf, overlap, read_shift_table
+from .shifts import free_shifts, nearest_wlf, overlap, table_of
 from .sweep import Sweep
-from .sweeps import check_above_pole, read_export
+from .sweeps import check_shifts, read_export
+from .time_shift import log_relative_shift
 
 Array = NDArray[np.float64]
 
@@ -32,25 +33,25 @@ ENOUGH_PER_DECADE = 2.5  # evenly spaced terms need no refinement above this
 
 def material_route(
     sweeps: tuple[Sweep, ...],
-    wlf: Wlf,
+    law: TimeShift,
     reference_temperature: float,
     settings: RouteSettings | None = None,
     source: str = "sweeps",
 ) -> MaterialRoute:
     """Shift, set outliers aside, fit and judge; `reference_temperature` in degC.
 
-    Raises `InputError` for a sweep at or below the WLF pole, a band outside the data, or too few points for the terms.
+    Raises `InputError` for a sweep where `law` has no meaning (a WLF pole, the end of a table), a band outside the
+    data, or too few points for the terms.
     """
     chosen = settings or RouteSettings()
-    if chosen.shift == "wlf":
-        check_above_pole(sweeps, wlf, source)
-    wlf_fit = fit_wlf(sweeps, wlf, reference_temperature, chosen.vertical) if chosen.fit_wlf else None
-    used = wlf if wlf_fit is None else wlf_fit.wlf
+    used, wlf_fit = _law(sweeps, law, reference_temperature, chosen, source)
+    temperatures = np.array([sweep.temperature for sweep in sweeps])
+    apart = 0.0
+    logs = log_relative_shift(temperatures, reference_temperature, used)
+    if not isinstance(used, Wlf):
+        apart = nearest_wlf(temperatures, logs, reference_temperature)[1]
     vertical = None if wlf_fit is None else wlf_fit.vertical_factors
-    logs, apart = _shifts(sweeps, reference_temperature, chosen)
-    if logs is not None:
-        used, apart = nearest_wlf(np.array([sweep.temperature for sweep in sweeps]), logs, reference_temperature)
-    master = shift(sweeps, used, reference_temperature, vertical, logs)
+    master = shift(sweeps, logs, reference_temperature, vertical)
     band = _band(master, chosen, source)
     inside = (master.angular_frequency >= band[0] * (1 - 1e-9)) & (master.angular_frequency <= band[1] * (1 + 1e-9))
     if 2 * int(inside.sum()) < chosen.terms + 1:
@@ -96,7 +97,7 @@ def material_route(
 
 def read_route(
     path: Path | str | Sequence[Path | str],
-    wlf: Wlf,
+    law: TimeShift,
     reference_temperature: float,
     settings: RouteSettings | None = None,
     modulus_unit: str | None = None,
@@ -108,20 +109,24 @@ def read_route(
     at = reference_temperature if ready_master else None
     sweeps, notes = read_export(path, modulus_unit, confirm_units, at, reading)
     source = str(path if isinstance(path, str | Path) else path[0])
-    return replace(material_route(sweeps, wlf, reference_temperature, settings, source), understood=notes)
+    return replace(material_route(sweeps, law, reference_temperature, settings, source), understood=notes)
 
 
-def _shifts(sweeps: tuple[Sweep, ...], reference: float, settings: RouteSettings) -> tuple[Array | None, float]:
-    """Return log10 a_T of each sweep where they are not to be by WLF constants."""
-    temperatures = np.array([sweep.temperature for sweep in sweeps])
-    if settings.shift == "free":
-        return free_shifts(sweeps, reference), 0.0
-    if settings.shift == "arrhenius":
-        return arrhenius(temperatures, reference, settings.activation_energy), 0.0
-    if settings.shift == "table":
-        assert settings.shift_table is not None
-        return read_shift_table(settings.shift_table, temperatures, reference), 0.0
-    return None, 0.0
+def _law(
+    sweeps: tuple[Sweep, ...], law: TimeShift, reference: float, settings: RouteSettings, source: str
+) -> tuple[TimeShift, WlfFit | None]:
+    """Return the law to shift by, and the fit where it was fitted."""
+    if settings.free:
+        temperatures = np.array([sweep.temperature for sweep in sweeps])
+        return table_of(temperatures, free_shifts(sweeps, reference)), None
+    check_shifts(sweeps, law, source)
+    law.check(reference, f"{source}: reference temperature")
+    if not settings.fit_wlf:
+        return law, None
+    if not isinstance(law, Wlf):
+        raise InputError(source, "a law that is not WLF", "WLF constants to start the fit of C1 and C2 from")
+    fitted = fit_wlf(sweeps, law, reference, settings.vertical)
+    return fitted.wlf, fitted
 
 
 def _band(master: MasterCurve, settings: RouteSettings, source: str) -> tuple[float, float]:
@@ -166,7 +171,8 @@ def _shift_deviation(
             moved = Wlf(
                 c1=max(c1, 1e-3), c2_K=max(c2, lowest + 1.0), reference_temperature_degC=master.reference_temperature
             )
-            other = shift(sweeps, moved, master.reference_temperature, wlf_fit.vertical_factors)
+            logs = log_relative_shift(np.array([s.temperature for s in sweeps]), master.reference_temperature, moved)
+            other = shift(sweeps, logs, master.reference_temperature, wlf_fit.vertical_factors)
             same = np.isin(other.line * len(sweeps) + other.sweep, (master.line * len(sweeps) + master.sweep)[kept])
             w, *moduli = (values[same] for values in (other.angular_frequency, *other.moduli))
             curves.append(rich_curve(w, *moduli).moduli(wanted))

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..study import Wlf
+from ..study import ArrheniusShift, ShiftTable, TimeShift, Wlf
 from .bands import Bands
 from .fit import PronyFit
 from .kramers_kronig import KramersKronig
 from .master import MasterCurve, VerticalShift, WlfFit
 from .rich import RichCurve, Scatter
-from .shifts import Overlap, ShiftKind
+from .shifts import Overlap
 from .sweep import Sweep
 
 Array = NDArray[np.float64]
 Times = Literal["auto", "even", "refined"]
+
+KINDS: dict[type, str] = {Wlf: "wlf", ArrheniusShift: "arrhenius", ShiftTable: "table"}
 
 
 @dataclass(frozen=True)
@@ -41,9 +42,9 @@ class RouteSettings:
     largest_error : float or None
         Prune to the fewest terms with both RMS errors at most this.
     fit_wlf : bool
-        Fit C1 and C2 instead of taking the given ones.
-    shift : str
-        ``wlf``; ``free``, neighbour on neighbour; ``arrhenius`` with `activation_energy` in kJ/mol; ``table``.
+        Fit C1 and C2 instead of taking the given law.
+    free : bool
+        Lay each sweep on its neighbour instead; the shifts become a table.
     replicates : int
         Resamples of the data behind the bands of the terms; 0 for no bands.
     """
@@ -57,9 +58,7 @@ class RouteSettings:
     largest_error: float | None = None
     fit_wlf: bool = False
     vertical: VerticalShift = "none"
-    shift: ShiftKind = "wlf"
-    activation_energy: float = 0.0
-    shift_table: Path | None = None
+    free: bool = False
     replicates: int = 400
     seed: int = 1
 
@@ -72,8 +71,8 @@ class MaterialRoute:
     ----------
     source : str
     sweeps : tuple of Sweep
-    wlf : Wlf
-        Constants used.
+    law : Wlf, ArrheniusShift or ShiftTable
+        By which times shift: the law that was given, unless it was fitted.
     wlf_fit : WlfFit or None
     master : MasterCurve
     band : (float, float), rad/s
@@ -90,7 +89,7 @@ class MaterialRoute:
     overlap : Overlap or None
         How well neighbouring sweeps lie on each other.
     wlf_apart : float
-        Largest distance of `wlf` from the shifts of the sweeps, decades; 0 where they were made by it.
+        Largest distance of the nearest WLF law from the shifts of the sweeps, decades; 0 where they are by WLF.
     understood : tuple of str
         How the files were read.
     bands_refused : str
@@ -100,7 +99,7 @@ class MaterialRoute:
     source: str
     settings: RouteSettings
     sweeps: tuple[Sweep, ...]
-    wlf: Wlf
+    law: TimeShift
     wlf_fit: WlfFit | None
     master: MasterCurve
     band: tuple[float, float]
@@ -155,12 +154,12 @@ class MaterialRoute:
             rows["wlf_c1_deviation"], rows["wlf_c2_deviation_K"] = round(c1, 4), round(c2, 3)
             rows["overlap_misfit_percent"] = round(100 * self.wlf_fit.misfit, 3)
         if self.overlap is not None and len(self.sweeps) > 1:
-            rows["shift"] = self.settings.shift
+            rows["shift"] = "free" if self.settings.free else KINDS[type(self.law)]
             rows["overlap_of_neighbours_percent"] = round(100 * self.overlap.misfit, 3)
             rows["worst_overlap_percent"] = round(100 * self.overlap.worst, 3)
             rows["neighbours_apart"] = self.overlap.apart
         if self.wlf_apart:
-            rows["wlf_misses_shifts_by_decades"] = round(self.wlf_apart, 4)
+            rows["nearest_wlf_misses_shifts_by_decades"] = round(self.wlf_apart, 4)
         for name, one in zip(("storage", "loss"), self.scatters, strict=True):
             rows[f"{name}_noise_percent"] = round(100 * one.noise, 3)
             rows[f"{name}_misfit_percent"] = round(100 * one.misfit, 3)

@@ -1,4 +1,4 @@
-"""Time-temperature shifts other than by WLF constants: free ones from overlap, Arrhenius, a table; their quality."""
+"""Time-temperature shifts of sweeps: free ones from overlap, tables from files; their quality."""
 
 from __future__ import annotations
 
@@ -12,14 +12,13 @@ from numpy.typing import NDArray
 
 from ..columns import read_columns
 from ..errors import InputError
-from ..study import Wlf
+from ..model_file import as_model
+from ..study import ShiftTable, Wlf
 from .sweep import Sweep
 
 Array = NDArray[np.float64]
 ShiftKind = Literal["wlf", "free", "arrhenius", "table"]
 
-GAS_CONSTANT = 8.314462618e-3  # kJ/(mol K)
-ZERO_CELSIUS = 273.15
 FEWEST_SHARED = 3  # points of each of two sweeps in their common band
 STEP = 0.02  # decades, of the search for a free shift
 
@@ -99,34 +98,24 @@ def free_shifts(sweeps: tuple[Sweep, ...], reference: float) -> Array:
     return np.asarray(total - np.interp(reference, temperatures, total[order]), dtype=np.float64)
 
 
-def arrhenius(temperatures: Array, reference: float, activation_energy: float) -> Array:
-    """Return log10 a_T = E_a/(R ln 10) (1/T - 1/T0); temperatures in degC, `activation_energy` in kJ/mol, > 0."""
-    return np.asarray(
-        activation_energy / (GAS_CONSTANT * np.log(10.0))
-        * (1.0 / (temperatures + ZERO_CELSIUS) - 1.0 / (reference + ZERO_CELSIUS)),
-        dtype=np.float64,
-    )  # fmt: skip
-
-
-def read_shift_table(path: Path | str, temperatures: Array, reference: float) -> Array:
-    """Return log10 a_T at temperatures in degC from a table temperature_degC, log10_shift_factor, linearly in between.
-
-    The table may refer to any temperature. Raises `InputError` where it does not reach a sweep or `reference`.
-    """
+def read_shift_table(path: Path | str) -> ShiftTable:
+    """Read a table temperature_degC, log10_shift_factor; it may refer to any temperature and stand in any order."""
     table = read_columns(path, ("temperature_degC", "log10_shift_factor"))
-    order = np.argsort(table["temperature_degC"])
-    t, logs = table["temperature_degC"][order], table["log10_shift_factor"][order]
-    for wanted in (*temperatures.tolist(), reference):
-        if not t[0] - 0.6 <= wanted <= t[-1] + 0.6:
-            raise InputError(path, f"{t[0]:g} to {t[-1]:g} degC", f"a shift at {wanted:.4g} degC too")
-    return np.asarray(np.interp(temperatures, t, logs) - np.interp(reference, t, logs), dtype=np.float64)
+    order = np.argsort(table["temperature_degC"], kind="stable")
+    points = [(float(table["temperature_degC"][k]), float(table["log10_shift_factor"][k])) for k in order]
+    law: ShiftTable = as_model({"kind": "table", "points": points}, ShiftTable, path)
+    return law
+
+
+def table_of(temperatures: Array, log_factors: Array) -> ShiftTable:
+    """Return the shifts of sweeps as a table; sweeps of one temperature share their mean."""
+    known = np.unique(temperatures)
+    means = [float(f"{np.mean(log_factors[temperatures == one]):.7g}") for one in known]
+    return ShiftTable(kind="table", points=tuple(zip(known.tolist(), means, strict=True)))
 
 
 def nearest_wlf(temperatures: Array, log_factors: Array, reference: float) -> tuple[Wlf, float]:
-    """Return the WLF law at `reference` (degC) that comes closest to shifts, and its largest distance in decades.
-
-    A study shifts by WLF; how far that is from the shifts of the sweeps is for the reader to judge.
-    """
+    """Return the WLF law at `reference` (degC) that comes closest to shifts, and its largest distance in decades."""
     from scipy.optimize import least_squares
 
     above = temperatures - reference

@@ -10,11 +10,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..instrument import Reading
-from ..study import Wlf
+from ..study import TimeShift
 from .dma_file import DmaTable, read_dma
 from .ramps import isothermal, ramp_rounds
 from .sweep import Sweep
-from .wlf import pole
 
 COLUMNS = ("temperature_degC", "frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa")
 UNITS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
@@ -170,12 +169,7 @@ def _check_ranges(table: DmaTable, has_temperature: bool) -> None:
         table.refuse(wrong, "temperature", temperature, "degC, not K or degF, or --confirm-units")
 
 
-def check_above_pole(sweeps: tuple[Sweep, ...], wlf: Wlf, source: str) -> None:
-    """Raise `InputError` for a sweep at or below Ts - C2, where the WLF law has no meaning."""
+def check_shifts(sweeps: tuple[Sweep, ...], law: TimeShift, source: str) -> None:
+    """Raise `InputError` for a sweep where `law` has no meaning: at or below a WLF pole, outside a table."""
     for sweep in sweeps:
-        if sweep.temperature <= pole(wlf):
-            raise InputError(
-                f"{source}:{sweep.line[0]}: temperature_degC",
-                f"{sweep.temperature:g} degC",
-                f"above the WLF pole Ts - C2 = {pole(wlf):g} degC",
-            )
+        law.check(sweep.temperature, f"{source}:{sweep.line[0]}: temperature_degC")

@@ -10,7 +10,7 @@ from ..study import FractionalZener
 from .compound import surrogate_modulus
 from .sweep import Sweep
 from .sweeps import COLUMNS
-from .wlf import relative_shift
+from .time_shift import relative_shift
 
 TEMPERATURES = (5.0, 10.0, 22.0, 35.0, 45.0, 60.0)  # degC
 FREQUENCIES = (0.1, 100.0)  # Hz

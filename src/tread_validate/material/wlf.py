@@ -12,7 +12,7 @@ from .exact import power_of_ten
 
 def pole(wlf: Wlf) -> float:
     """Return the temperature Ts - C2, degC, at and below which the WLF law has no meaning."""
-    return wlf.reference_temperature_degC - wlf.c2_K
+    return wlf.pole
 
 
 def log_shift_factor(temperature: ArrayLike, wlf: Wlf) -> NDArray[np.float64]:
@@ -30,11 +30,6 @@ def log_shift_factor(temperature: ArrayLike, wlf: Wlf) -> NDArray[np.float64]:
 def shift_factor(temperature: ArrayLike, wlf: Wlf) -> NDArray[np.float64]:
     """Return a_T = tau(T) / tau(Ts), dimensionless, > 0; `temperature` in degC, any shape."""
     return power_of_ten(log_shift_factor(temperature, wlf))
-
-
-def relative_shift(temperature: ArrayLike, reference: float, wlf: Wlf) -> NDArray[np.float64]:
-    """Return tau(T) / tau(`reference`), dimensionless; both temperatures in degC."""
-    return power_of_ten(log_shift_factor(temperature, wlf) - log_shift_factor(reference, wlf))
 
 
 def referred_to(wlf: Wlf, reference: float) -> tuple[float, float]:

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..geometry import path_of
-from ..study import Case, Compound, FractionalZener, PronyFile, SweepFile
+from ..study import Case, Compound, FractionalZener, PronyFile, SpringPots, SweepFile
 from .compound import compound_route, fit_surrogate
 from .material_file import read_material
-from .wlf import relative_shift
+from .time_shift import relative_shift, told
 
 Array = NDArray[np.float64]
 
@@ -113,6 +113,8 @@ def _worth(name: str, cases: list[Case]) -> Worth:
     bands = np.array([_band(case) for case in cases])
     needed = float(bands[:, 0].min()), float(bands[:, 1].max())
     left = tuple(key for key in ("wlf", "poissons_ratio", "density_kg_m3") if key not in compound.model_fields_set)
+    if compound.shift is not None:
+        left = tuple(key for key in left if key != "wlf")
     known, errors, over, consistent, shift = _fitted(compound, cases[0], needed)
     if "wlf" in left and not isinstance(compound, PronyFile):
         shift = "by the paper's constants, not given in the study"
@@ -127,7 +129,7 @@ def _band(case: Case) -> tuple[float, float]:
     """
     low, high = _rates(case)
     compound = case.compound
-    shift = float(relative_shift(case.temperature, compound.data_temperature_degC, compound.wlf))
+    shift = float(relative_shift(case.temperature, compound.data_temperature_degC, compound.time_shift))
     return low * shift, high * shift
 
 
@@ -146,8 +148,8 @@ def _rates(case: Case) -> tuple[float, float]:
 def _fitted(
     compound: Compound, case: Case, needed: tuple[float, float]
 ) -> tuple[tuple[float, float] | None, tuple[float | None, float | None], str, bool | None, str]:
-    given = "constants given in the study"
-    if isinstance(compound, FractionalZener):
+    given = f"as given in the study: {told(compound.time_shift)}"
+    if isinstance(compound, FractionalZener | SpringPots):
         fit = fit_surrogate(compound)
         used = _used(fit.angular_frequency, fit.storage_residual, fit.loss_residual, needed)
         return compound.fit.band_rad_s, *used, None, given
@@ -164,7 +166,8 @@ def _fitted(
         found = [quality.get(key) for key in ("storage_rms_percent", "loss_rms_percent")]
         errors = [None if value is None else 0.01 * float(value) for value in found]
         verdict = quality.get("kramers_kronig_consistent")
-        said = "fitted by fit-prony" if "wlf_c1_deviation" in quality else "constants of the material file"
+        by = told(compound.time_shift)
+        said = f"fitted by fit-prony: {by}" if "wlf_c1_deviation" in quality else f"as in the material file: {by}"
         return (
             known,
             (errors[0], errors[1]),

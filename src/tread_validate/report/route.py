@@ -26,7 +26,7 @@ def worth_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
 def route_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
     """Return figures and quality of every compound made from sweeps and every belt path made from ridge heights."""
     found: list[Item] = []
-    for name, compound in study.model.compounds.items():
+    for name, compound in study.compounds().items():
         route = compound_route(compound, study.root)
         if route is None:
             continue

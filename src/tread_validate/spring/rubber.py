@@ -12,7 +12,7 @@ from ..study import Case, Compound
 def series_of(case: Case) -> PronySeries:
     """Return the compound's series at the case's temperature; one without a data file is worked out once."""
     if case.input_files():
-        return prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.wlf)
+        return prony_series(case.compound, case.root).at_temperature(case.temperature, case.compound.time_shift)
     return _series(case.compound, case.temperature)
 
 
@@ -23,7 +23,7 @@ def law_of(case: Case) -> FrictionLaw:
 
 @lru_cache(maxsize=256)
 def _series(compound: Compound, temperature: float) -> PronySeries:
-    return prony_series(compound).at_temperature(temperature, compound.wlf)
+    return prony_series(compound).at_temperature(temperature, compound.time_shift)
 
 
 @lru_cache(maxsize=256)

@@ -46,7 +46,7 @@ def _scaled(case: Case, factor: float) -> PronyCompound:
         source=case.compound.source,
         poissons_ratio=case.compound.poissons_ratio,
         density_kg_m3=case.compound.density_kg_m3,
-        wlf=case.compound.wlf,
+        **case.compound.shift_keys(),
         data_temperature_degC=series.reference_temperature,
         long_term_modulus_MPa=factor * series.long_term_modulus / MPA,
         terms=tuple(

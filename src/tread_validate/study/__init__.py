@@ -8,19 +8,23 @@ from .compound import (
     Compound,
     FitSettings,
     FractionalZener,
+    LibraryCompound,
     PronyCompound,
     PronyFile,
     PronyTerm,
+    SpringPot,
+    SpringPots,
     SweepFile,
-    Wlf,
 )
 from .document import Study
 from .load import LoadedStudy, load_study
 from .settings import DeckSettings, SpringSettings, Tolerance
+from .shift import ArrheniusShift, ShiftTable, TimeShift, Wlf
 
 __all__ = [
-    "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FlatTrack", "FractionalZener", "Friction",
-    "FrictionTable", "Huemer", "HuemerFile", "LoadedStudy", "MeasuredBelt", "PathEntry", "Power", "PronyCompound",
-    "PronyFile", "PronyTerm", "Rig", "SimplifiedBelt", "Sipe", "SpringSettings", "Study", "SweepFile", "Tolerance",
-    "Wlf", "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
+    "ArrheniusShift", "Block", "Case", "Compound", "Coulomb", "DeckSettings", "FitSettings", "FlatTrack",
+    "FractionalZener", "Friction", "FrictionTable", "Huemer", "HuemerFile", "LibraryCompound", "LoadedStudy",
+    "MeasuredBelt", "PathEntry", "Power", "PronyCompound", "PronyFile", "PronyTerm", "Rig", "ShiftTable",
+    "SimplifiedBelt", "Sipe", "SpringPot", "SpringPots", "SpringSettings", "Study", "SweepFile", "TimeShift",
+    "Tolerance", "Wlf", "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
 ]  # fmt: skip

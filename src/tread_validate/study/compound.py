@@ -6,15 +6,9 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, FiniteFloat, model_validator
 
-from ..fields import FileName, Line, NonNegative, PoissonsRatio, Positive, Sourced, Strict
-
-
-class Wlf(Strict):
-    """Williams-Landel-Ferry constants: log10 a_T = -C1 (T - Ts) / (C2 + T - Ts)."""
-
-    c1: Positive = Field(8.86, description="C1, dimensionless")
-    c2_K: Positive = Field(101.6, description="C2, K")
-    reference_temperature_degC: FiniteFloat = Field(10.0, description="Ts, degC (Tg + 50)")
+from ..errors import InputError
+from ..fields import FileName, Line, Name, NonNegative, PoissonsRatio, Positive, Sourced, Strict, WhereGiven
+from .shift import OtherShift, TimeShift, Wlf
 
 
 class CompoundBase(Sourced):
@@ -23,14 +17,29 @@ class CompoundBase(Sourced):
     poissons_ratio: PoissonsRatio = 0.47
     density_kg_m3: Positive = 1000.0
     wlf: Wlf = Wlf()
+    shift: Annotated[OtherShift | None, WhereGiven("shifts are by `wlf` without it")] = Field(
+        None, description="shift of times by Arrhenius or a table, in place of `wlf`"
+    )
     data_temperature_degC: FiniteFloat = Field(22.0, description="temperature that the relaxation times refer to, degC")
 
     @model_validator(mode="after")
-    def _data_above_the_pole(self) -> Self:
-        pole = self.wlf.reference_temperature_degC - self.wlf.c2_K
-        if self.data_temperature_degC <= pole:
-            raise ValueError(f"data_temperature_degC must lie above the WLF pole at {pole:g} degC")
+    def _data_where_times_shift(self) -> Self:
+        if self.shift is not None and "wlf" in self.model_fields_set:
+            raise ValueError("shift: got both wlf and shift, expected one of them")
+        try:
+            self.time_shift.check(self.data_temperature_degC, "data_temperature_degC")
+        except InputError as error:
+            raise ValueError(str(error)) from None
         return self
+
+    @property
+    def time_shift(self) -> TimeShift:
+        """The law by which times shift with temperature."""
+        return self.wlf if self.shift is None else self.shift
+
+    def shift_keys(self) -> dict[str, TimeShift]:
+        """Return the key that gives another compound the same shift."""
+        return {"wlf": self.wlf} if self.shift is None else {"shift": self.shift}
 
 
 class FitSettings(Strict):
@@ -56,6 +65,28 @@ class FractionalZener(CompoundBase):
     modulus_rise_MPa: Positive
     corner_frequency_rad_s: Positive
     exponent: Annotated[FiniteFloat, Field(gt=0, le=1)]
+    fit: FitSettings = FitSettings()
+
+
+class SpringPot(Strict):
+    """E (i f/f_ref)^(phase/90): a spring at 0 deg, a dashpot at 90 deg."""
+
+    modulus_MPa: Positive = Field(description="at the reference frequency")
+    phase_deg: Annotated[FiniteFloat, Field(ge=0, le=90)]
+
+
+class SpringPots(CompoundBase):
+    """Branches in parallel, each of spring-pots in series: E*(f) = sum over branches of 1/(sum of 1/E_k*(f)).
+
+    The fractional Maxwell, Zener and Kelvin-Voigt solids are cases of it. A fit over a band makes it a Prony series.
+    """
+
+    kind: Literal["springpots"]
+    reference_frequency_Hz: Positive
+    branches: Annotated[
+        tuple[Annotated[tuple[SpringPot, ...], Field(min_length=1, max_length=10)], ...],
+        Field(min_length=1, max_length=10),
+    ]
     fit: FitSettings = FitSettings()
 
 
@@ -113,4 +144,15 @@ class SweepFile(CompoundBase):
     fit: FitSettings = FitSettings()
 
 
-Compound = Annotated[FractionalZener | PronyCompound | PronyFile | SweepFile, Field(discriminator="kind")]
+class LibraryCompound(Strict):
+    """A published compound by name: a file of ``reference_data/compounds``, a study's compound each."""
+
+    kind: Literal["library"]
+    name: Name
+
+
+Compound = Annotated[FractionalZener | SpringPots | PronyCompound | PronyFile | SweepFile, Field(discriminator="kind")]
+NamedCompound = Annotated[
+    FractionalZener | SpringPots | PronyCompound | PronyFile | SweepFile | LibraryCompound,
+    Field(discriminator="kind"),
+]

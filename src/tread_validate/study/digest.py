@@ -17,7 +17,7 @@ from typing import Any, get_type_hints
 
 from pydantic import BaseModel
 
-from ..fields import DataFile, Label, Numerics
+from ..fields import DataFile, Label, Numerics, WhereGiven
 
 
 @cache
@@ -62,6 +62,8 @@ def _decisive(owner: Any, root: Path, solvers: tuple[str, ...]) -> Iterator[tupl
         if any(
             isinstance(mark, Label) or (isinstance(mark, Numerics) and mark.solver not in solvers) for mark in found
         ):
+            continue
+        if value is None and any(isinstance(mark, WhereGiven) for mark in found):
             continue
         if value is not None and any(isinstance(mark, DataFile) for mark in found):
             yield name, _file(root / value)

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from ..fields import Label, Line, Name, Numerics, Strict
 from ..friction import Friction
 from ..geometry import AnyPath, Block
-from .compound import Compound
+from .compound import NamedCompound
 from .own_model import OwnModel
 from .run import Run
 from .settings import DeckSettings, SpringSettings, Tolerance
@@ -22,7 +22,7 @@ class Study(Strict):
     name: Annotated[Name, Label("names the study")]
     title: Annotated[Line, Label("heads the report")]
     notes: Annotated[tuple[Line, ...], Label("for the reader")] = ()
-    compounds: Annotated[dict[Name, Compound], Field(min_length=1)]
+    compounds: Annotated[dict[Name, NamedCompound], Field(min_length=1)]
     friction_laws: Annotated[dict[Name, Friction], Field(min_length=1)]
     blocks: Annotated[dict[Name, Block], Field(min_length=1)]
     paths: Annotated[dict[Name, AnyPath], Field(min_length=1)]

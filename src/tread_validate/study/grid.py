@@ -11,6 +11,7 @@ from ..units import MM, PERCENT
 from .case import Case
 from .document import Study
 from .factors import FACTORS
+from .library import named_compound
 from .run import Run
 
 LONGEST_ID = 64
@@ -49,7 +50,7 @@ def _case(
 ) -> Case:
     path = study.paths[level["path"]]
     block = study.blocks[level["block"]]
-    compound = study.compounds[level["compound"]]
+    compound = named_compound(study.compounds[level["compound"]], root)
     if level["poissons_ratio"] is not None:
         compound = compound.model_copy(update={"poissons_ratio": level["poissons_ratio"]})
     if run.speed_rpm is not None:
@@ -70,9 +71,7 @@ def _case(
     limit = path.tallest_block()
     if limit is not None and block.height_mm >= limit[0]:
         raise InputError(f"{where}.block", f"height {block.height_mm:g} mm", f"less than {limit[1]}")
-    pole = compound.wlf.reference_temperature_degC - compound.wlf.c2_K
-    if level["temperature_degC"] <= pole:
-        raise InputError(f"{where}.temperature_degC", level["temperature_degC"], f"above the WLF pole, {pole:g} degC")
+    compound.time_shift.check(level["temperature_degC"], f"{where}.temperature_degC")
     free_rolling = level["creep"] == "free_rolling"
     return Case(
         case_id=_case_id(run, level),

@@ -11,8 +11,10 @@ from ..model_file import as_model
 from ..provenance import sha256_text
 from ..yaml_text import load_yaml
 from .case import Case
+from .compound import Compound, LibraryCompound
 from .document import Study
 from .grid import expand
+from .library import library_compound, library_file, named_compound
 
 LARGEST_FILE = 1_000_000
 
@@ -29,6 +31,15 @@ class LoadedStudy:
     def cases(self) -> tuple[Case, ...]:
         """Return every case; free-rolling ones still without a creep ratio."""
         return expand(self.model, self.source, self.root, self.digest)
+
+    def compounds(self) -> dict[str, Compound]:
+        """Return the compounds by their names in the study, those of the library read."""
+        return {name: named_compound(item, self.root) for name, item in self.model.compounds.items()}
+
+    def library_files(self) -> tuple[Path, ...]:
+        """Return the files of the library that the study names."""
+        named = (item for item in self.model.compounds.values() if isinstance(item, LibraryCompound))
+        return tuple(library_file(item.name, self.root) for item in named)
 
     def case(self, case_id: str) -> Case:
         """Return one case by its id; raises `InputError` where there is none."""
@@ -60,6 +71,8 @@ def load_study(path: Path | str) -> LoadedStudy:
         ("paths", model.paths),
     ):
         for name, item in table.items():
+            if isinstance(item, LibraryCompound):
+                library_compound(item.name, root)
             file = getattr(item, "file", None)
             if file is not None and not (root / file).is_file():
                 raise InputError(f"{source}: {section}.{name}.file", file, f"an existing file below {root.name}/")

@@ -10,8 +10,9 @@ import pytest
 
 from tread_validate.errors import InputError
 from tread_validate.material import RouteSettings, fractional_zener, material_route
-from tread_validate.material.shifts import arrhenius, free_shifts, nearest_wlf, overlap, read_shift_table
+from tread_validate.material.shifts import free_shifts, nearest_wlf, overlap, read_shift_table
 from tread_validate.material.sweep import Sweep
+from tread_validate.material.time_shift import arrhenius, log_relative_shift
 from tread_validate.material.wlf import log_shift_factor
 from tread_validate.study import Wlf
 
@@ -66,13 +67,12 @@ def test_a_table_of_shifts_serves_and_must_reach(tmp_path: Path) -> None:
     logs = arrhenius(TEMPERATURES, 0.0, 120.0)
     rows = "\n".join(f"{t:g},{v:.12g}" for t, v in zip(TEMPERATURES, logs, strict=True))
     path.write_text(f"temperature_degC,log10_shift_factor\n{rows}\n")
-    np.testing.assert_allclose(
-        read_shift_table(path, TEMPERATURES, 20.0), arrhenius(TEMPERATURES, 20.0, 120.0), atol=1e-9
-    )
-    with pytest.raises(InputError, match="a shift at 60 degC too"):
-        read_shift_table(path, np.array([60.0]), 20.0)
-    settings = RouteSettings(terms=12, replicates=0, shift="table", shift_table=path)
-    route = material_route(sweeps(arrhenius(TEMPERATURES, 20.0, 120.0)), Wlf(), 20.0, settings)
+    law = read_shift_table(path)
+    there = arrhenius(TEMPERATURES, 20.0, 120.0)
+    np.testing.assert_allclose(log_relative_shift(TEMPERATURES, 20.0, law), there, atol=1e-9)
+    with pytest.raises(InputError, match="0 to 50 degC, where the shift is tabulated"):
+        log_relative_shift(60.0, 20.0, law)
+    route = material_route(sweeps(there), law, 20.0, RouteSettings(terms=12, replicates=0))
     assert route.fit.storage_rms < 0.02
     assert route.quality()["shift"] == "table"
     assert route.wlf_apart > 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ...study import Case
+from ...study import Case, Wlf
 from ...units import IN_MM, MM
 from ...yaml_text import read_yaml
 from .claim import Compute, Computed, Evidence, is_measured, nothing
@@ -54,8 +54,9 @@ def _level(position: float) -> Callable[[list[float]], float]:
     return lambda numbers: min(numbers, key=lambda number: abs(number - position))
 
 
-def _wlf(case: Case) -> Any:
-    return case.compound.wlf
+def _wlf(case: Case, value: Callable[[Wlf], float]) -> float | None:
+    law = case.compound.time_shift
+    return value(law) if isinstance(law, Wlf) else None
 
 
 def _fit(case: Case) -> Any:
@@ -67,9 +68,9 @@ def _simplified(name: str) -> Callable[[Case], Any]:
 
 
 INPUTS: dict[str, Compute] = {
-    "wlf_c1": _of(BELT, lambda case: _wlf(case).c1),
-    "wlf_c2": _of(BELT, lambda case: _wlf(case).c2_K),
-    "glass_transition": _of(BELT, lambda case: _wlf(case).reference_temperature_degC - 50.0),
+    "wlf_c1": _of(BELT, lambda case: _wlf(case, lambda law: law.c1)),
+    "wlf_c2": _of(BELT, lambda case: _wlf(case, lambda law: law.c2_K)),
+    "glass_transition": _of(BELT, lambda case: _wlf(case, lambda law: law.reference_temperature_degC - 50.0)),
     "data_temperature": _of(BELT, lambda case: case.compound.data_temperature_degC),
     "prony_terms": _of(BELT, lambda case: None if _fit(case) is None else _fit(case).terms),
     "band_low": _of(BELT, lambda case: None if _fit(case) is None else _fit(case).band_rad_s[0]),

@@ -10,8 +10,7 @@ import numpy as np
 from ...geometry import path_of
 from ...geometry.trace_curvature import three_point_curvature
 from ...geometry.trace_file import read_belt
-from ...material import prony_series
-from ...material.wlf import relative_shift
+from ...material import prony_series, relative_shift
 from ...study import Case
 from ...units import IN_GRAM, IN_KPA, IN_MPA
 from .claim import Compute, Computed, Evidence, is_measured, nothing
@@ -56,7 +55,7 @@ def _band(end: int, scale: float) -> Compute:
         fit = None if case is None else getattr(case.compound, "fit", None)
         if case is None or fit is None:
             return nothing("the study has no tyre case with a compound fitted over a band")
-        shift = float(relative_shift(case.temperature, case.compound.data_temperature_degC, case.compound.wlf))
+        shift = float(relative_shift(case.temperature, case.compound.data_temperature_degC, case.compound.time_shift))
         return Computed(scale * fit.band_rad_s[end] / (2.0 * math.pi) / shift, (case.case_id,))
 
     return compute

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from ...geometry.trace import LevelledTrace
 from ...material.route_result import MaterialRoute
+from ...material.time_shift import told
 from ...palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from ...units import MM, MPA
 from ..content import Mark
@@ -56,10 +57,9 @@ def master(folder: Path, name: str, route: MaterialRoute, marks: tuple[Mark, ...
         axes.set(xscale="log", yscale="log", xlabel="reduced angular frequency, rad/s", ylabel="modulus, MPa")
         axes.legend()
 
-    c1, c2 = route.wlf.c1, route.wlf.c2_K
     caption = (
-        f"Shifted to {curve.reference_temperature:g} °C with C1 = {c1:.4g}, C2 = {c2:.4g} K at "
-        f"{route.wlf.reference_temperature_degC:g} °C. Shaded: the band of the fit."
+        f"Shifted to {curve.reference_temperature:g} °C by {told(route.law).replace('degC', '°C')}. "
+        "Shaded: the band of the fit."
     )
     return draw(folder, f"route-{name}-master", f"Master curve, compound {name}", caption, paint, marks)
 

@@ -174,7 +174,7 @@ class Studio:
         compounds = dict.fromkeys(view.row.compound for view in self.views)
         laws = dict.fromkeys(view.row.friction for view in self.views)
         found = [
-            material.moduli(self.folder, name, model.compounds[name], root, self.input_marks(f"compound {name}"))
+            material.moduli(self.folder, name, self.study.compounds()[name], root, self.input_marks(f"compound {name}"))
             for name in compounds
             if name in model.compounds
         ]
