@@ -146,7 +146,7 @@ def command(
 
 
 def _law_of(constants: tuple[float, float, float], energy: float | None, table: Path | None) -> TimeShift:
-    """Return the law to shift by: a table, an activation energy in kJ/mol, or WLF constants C1, C2 (K) and Ts (degC)."""
+    """Return the law to shift by: a table, an activation energy in kJ/mol, or WLF constants C1, C2, Ts (K, degC)."""
     from ..material.shifts import read_shift_table
     from ..study import ArrheniusShift, Wlf
 

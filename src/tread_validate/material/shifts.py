@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,6 @@ from ..study import ShiftTable, Wlf
 from .sweep import Sweep
 
 Array = NDArray[np.float64]
-ShiftKind = Literal["wlf", "free", "arrhenius", "table"]
 
 FEWEST_SHARED = 3  # points of each of two sweeps in their common band
 STEP = 0.02  # decades, of the search for a free shift
