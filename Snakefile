@@ -18,12 +18,15 @@ include: "workflow/rules/fe.smk"
 include: "workflow/rules/compare.smk"
 include: "workflow/rules/mesh.smk"
 include: "workflow/rules/ladder.smk"
+include: "workflow/rules/graph.smk"
 include: "workflow/rules/report.smk"
 
 
 localrules:
     all,
     checked,
+    rule_graph,
+    run_times,
 
 
 rule all:
@@ -32,3 +35,4 @@ rule all:
         rules.tables.output.errors,
         REPORT_PAGE,
         REPORT_PDF,
+        rules.run_times.output,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import struct
 from collections.abc import Iterator
@@ -193,10 +194,32 @@ def test_filter_leaves_the_rows_that_hold_the_words(open_page: Any) -> None:
     assert links == "tables/ensemble.csv"
 
 
-def test_figure_is_saved_as_png(open_page: Any) -> None:
-    """Exact: a PNG of three times the drawing's size."""
-    size = open_page.js("TV.figures.png('overview').then(blob => blob.type)")
-    assert size == "image/png"
+def test_every_figure_is_saved_as_svg_png_and_csv_out_of_the_page_alone(open_page: Any) -> None:
+    """Exact: every figure and both charts have three buttons; each makes a file of its kind that is not empty."""
+    keys = open_page.js("[...new Set([...document.querySelectorAll('button.save')].map(b => b.dataset.of))]")
+    figures = open_page.js("document.querySelectorAll('figure').length")
+    assert len(keys) == figures + 2
+    assert open_page.js("document.querySelectorAll('button.save').length") == 3 * len(keys)
+    start = "new Uint8Array(await b.arrayBuffer())"
+    for key in keys:
+        head = {
+            kind: bytes(open_page.js(f"TV.figures.made('{key}', '{kind}').then(async ([b]) => [...{start}])"))
+            for kind in ("svg", "png", "csv")
+        }
+        assert b"<svg" in head["svg"][:500], key
+        assert head["png"].startswith(b"\x89PNG"), key
+        assert head["csv"].count(b"\n") > 2, key
+        assert b"nan" not in head["csv"], key
+
+
+def test_numbers_of_the_first_picture_are_the_histories(open_page: Any) -> None:
+    """Exact to five digits: the largest normal force of the reference in the saved CSV is the history's peak."""
+    text = open_page.js("TV.figures.made('overview', 'csv').then(([b, name]) => b.text())")
+    rows = list(csv.DictReader(io.StringIO(text)))
+    series = {row["series"] for row in rows}
+    assert {"Built-in explicit FE", "Springs of the paper"} <= series
+    normal = [float(row["y"]) for row in rows if row["series"] == "Built-in explicit FE" and "normal" in row["panel"]]
+    assert max(normal) == pytest.approx(1e6 * 1e-4 * (1.0 + 0.03 * 150.0 * 2.0 * np.pi / 60.0 * 0.1), rel=1e-4)
 
 
 def test_browser_memory_of_the_page_is_small(tab: Any, page: Path) -> None:

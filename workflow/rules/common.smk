@@ -1,6 +1,9 @@
 # The study, read and validated before any job; its workspace; the digests of the code behind each step. A rule has the
 # digest of its code among its parameters: after an edit just what depends on it runs again, and so it does when the
 # edit is taken back.
+import os
+import re
+import time
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -14,6 +17,8 @@ from tread_validate.study import load_study
 from tread_validate.study.typical import path_and_block, typical_cases
 from tread_validate.workspace import bind
 
+# when this run began, by which the page of run times tells a time of this run from one of an earlier run
+os.environ.setdefault("TREAD_VALIDATE_RUN_BEGAN", f"{time.time():.3f}")
 STUDY = config["study"]
 REFERENCES = config["references"]
 SETTINGS = config["engines"]
@@ -70,6 +75,9 @@ def stale_histories(wildcards):
     return expand(f"{RESULTS}/fe/{ENGINE}/{{case}}.csv", case=listed)
 
 
+stale_histories.needs = ("stale_references", "fe")
+
+
 def mesh_options(wildcards):
     deck, factor = study.model.deck, MESHES[wildcards.mesh]
     if deck.layers % 2 or deck.layers < 4:
@@ -78,3 +86,38 @@ def mesh_options(wildcards):
             "the coarse mesh has half of it"
         )
     return f"--element-size {deck.element_size_mm * factor:g} --layers {round(deck.layers / factor)}"
+
+
+def pattern(file):
+    """A file's pattern without the constraints of its wildcards."""
+    return re.sub(r"{(\w+),[^}]*}", r"{\1}", str(file))
+
+
+def makes(outputs, items):
+    """Whether a rule makes an input of another; names are compared as sets, for there may be thousands."""
+    names = {pattern(item) for item in items if not callable(item)}
+    if names & {pattern(output) for output in outputs}:
+        return True
+    open_outputs = [output for output in outputs if "{" in str(output)]
+    open_items = [item for item in items if not callable(item) and "{" in str(item)]
+    tried = {re.sub(r"{\w+}", "x", name) for name in names} if open_outputs else ()
+    return any(output.match(name) for output in open_outputs for name in tried) or any(
+        item.match(output) for item in open_items for output in outputs
+    )
+
+
+def rule_lines(wildcards):
+    """One line a rule: its name, the rules whose files it reads, where its run times are kept."""
+    rules_shown = [
+        one
+        for one in workflow.rules
+        if one.name not in ("all", "checked", "rule_graph", "run_times")
+        and (MODELS or one.name != "model")
+    ]
+    lines = []
+    for one in rules_shown:
+        needs = {name for item in one.input for name in getattr(item, "needs", ())}
+        needs |= {other.name for other in rules_shown if makes(other.output, one.input)}
+        told = ",".join(sorted(needs - {one.name}))
+        lines.append(f"{one.name};{told};{pattern(one.benchmark or '')}")
+    return lines

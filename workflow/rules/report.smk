@@ -6,6 +6,7 @@ rule report:
         delta=CHECKED,
         histories=rules.tables.input.histories,
         decks=rules.decks.output.mesh,
+        graph=rules.rule_graph.output,
         references=REFERENCE_FILES,
         ladder=sorted(
             str(path) for path in Path(REFERENCES, "ladder", NAME).glob("*.*")
@@ -35,4 +36,22 @@ rule report:
         "Writing the report"
     shell:
         "tread-validate report {input.study} --tables {params.tables} --spring {params.spring} "
-        "--references {params.references} --decks {params.decks} {params.delta} -o {params.folder} > {log} 2>&1"
+        "--references {params.references} --decks {params.decks} --workflow {input.graph} {params.delta} -o {params.folder} > {log} 2>&1"
+
+
+rule run_times:
+    input:
+        page=rules.report.output.page,
+        graph=rules.rule_graph.output,
+    output:
+        f"{REPORTS}/run_times.html",
+    log:
+        f"{LOGS}/run_times.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=CODE["report"],
+    message:
+        "Writing the run times"
+    shell:
+        "tread-validate run-times {input.graph} -o {output} > {log} 2>&1"

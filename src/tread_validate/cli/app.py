@@ -38,6 +38,7 @@ VERBS = {
     "regress": "regress",
     "tables": "tables",
     "report": "report",
+    "run-times": "run_times",
     "check": "check",
     "check-model": "check_model",
     "accept": "accept",

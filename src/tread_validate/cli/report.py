@@ -29,6 +29,9 @@ def command(
         Path | None,
         typer.Option(help="folder of the model ladder's tables [default: ladder/<study> among the references]"),
     ] = None,
+    workflow: Annotated[
+        Path | None, typer.Option(help="the workflow's note of its rules; without it their graph is not drawn")
+    ] = None,
 ) -> None:
     """Write the report: index.html (one self-contained file), report.pdf, tables/ and figures/.
 
@@ -45,5 +48,7 @@ def command(
     decks, out = decks or place.decks, out or place.reports
     ladder = ladder or references / "ladder" / loaded.model.name
     todays_tables(tables, loaded)
-    build_report(study, tables, spring, references, decks, out, baseline_delta=delta, ladder_dir=ladder)
+    build_report(
+        study, tables, spring, references, decks, out, baseline_delta=delta, ladder_dir=ladder, workflow=workflow
+    )
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

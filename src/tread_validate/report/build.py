@@ -19,6 +19,7 @@ from .discussion import discussion_section, method_section
 from .error_charts import heatmap, scatter
 from .extra import ladder_section, mesh_table
 from .figures import figure_items
+from .figures.workflow import rule_graph
 from .histories import HistoryStore, load_histories
 from .html import render
 from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
@@ -31,6 +32,7 @@ from .summary import CAVEAT, first_screen
 from .table1 import differences_table, table1
 from .tables import read_tables
 from .widgets import browser
+from .workflow import read_rules
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,7 @@ class Places:
     out: Path
     baseline_delta: Path | None = None
     ladder: Path | None = None
+    workflow: Path | None = None
 
     @property
     def models(self) -> Path:
@@ -60,6 +63,7 @@ def build_report(
     out_dir: Path | str,
     baseline_delta: Path | str | None = None,
     ladder_dir: Path | str | None = None,
+    workflow: Path | str | None = None,
 ) -> Report:
     """Write ``index.html``, ``report.pdf``, ``tables/`` and ``figures/`` below `out_dir`.
 
@@ -79,6 +83,8 @@ def build_report(
         The table that ``tread-validate check`` wrote.
     ladder_dir : path, optional
         Tables of the model ladder.
+    workflow : path, optional
+        The workflow's note of its rules; their graph is drawn from it.
 
     Raises
     ------
@@ -93,6 +99,7 @@ def build_report(
         Path(out_dir),
         None if baseline_delta is None else Path(baseline_delta),
         None if ladder_dir is None else Path(ladder_dir),
+        None if workflow is None else Path(workflow),
     )
     report = compose(Path(study_path), places)
     write_text(places.out / "index.html", render(report))
@@ -148,6 +155,7 @@ def compose(study_path: Path, places: Places) -> Report:
         ladder_section(places.ladder, study, places.out / "figures", marks),
         inputs_section(tables, marks),
         provenance_section(tables),
+        _workflow(places),
     ]
     return Report(
         title="Tread-block validation report",
@@ -156,6 +164,15 @@ def compose(study_path: Path, places: Places) -> Report:
         stamp=stamp(tables),
         page_data=data,
     )
+
+
+def _workflow(places: Places) -> Section | None:
+    """Return the workflow's rule graph; its run times stand on a page of their own, for they differ from run to run."""
+    if places.workflow is None or not places.workflow.is_file():
+        return None
+    drawn = figure_items((rule_graph(places.out / "figures", read_rules(places.workflow)),))
+    words = Paragraph("Run time and memory of every rule, as Snakemake measured them: ", link="run_times.html")
+    return Section("workflow", "The workflow", (*drawn, words), page_only=True)
 
 
 def _copy_tables(places: Places) -> None:

@@ -76,7 +76,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawn figure: an SVG file and its numbers as CSV, with the words that stand for it."""
+    """A drawn figure: an SVG file, its numbers as CSV and the words for it; `case` is the one that it shows."""
 
     key: str
     title: str
@@ -85,6 +85,7 @@ class Figure:
     marks: tuple[Mark, ...] = ()
     wide: bool = False
     data: Path | None = None
+    case: str = ""
 
 
 @dataclass(frozen=True)
@@ -97,12 +98,13 @@ class Figures:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """A paragraph of plain text."""
+    """A paragraph of plain text; `link` is the file beside the report that it ends with."""
 
     text: str
     tone: Tone = ""
     marks: tuple[Mark, ...] = ()
     pdf_only: bool = False
+    link: str = ""
 
 
 @dataclass(frozen=True)

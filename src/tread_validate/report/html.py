@@ -16,7 +16,7 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from .content import Figures, Report, Row, Table
+from .content import Figures, FirstScreen, Report, Row, Table
 from .marks import by_origin
 
 SCRIPTS = ("start.js", "figures.js", "filter.js", "sort.js", "browser.js", "heatmap.js", "scatter.js", "end.js")
@@ -39,7 +39,12 @@ def render(report: Report) -> str:
     environment.filters.update(
         by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri, size=_size
     )
-    data = {**_packed(report.page_data), "figures": _figures(report), "tables": _folded(report, environment)}
+    data = {
+        **_packed(report.page_data),
+        "figures": _figures(report),
+        "numbers": _numbers(report),
+        "tables": _folded(report, environment),
+    }
     plotly, script = _plotly(), "\n".join(_asset(name) for name in SCRIPTS)
     return (
         environment.get_template("index.html.j2")
@@ -81,6 +86,14 @@ def _figures(report: Report) -> dict[str, str]:
     drawn = [item for section in report.sections for item in section.items if isinstance(item, Figures)]
     shown = [figure for item in drawn if not item.pdf_only for figure in item.items]
     return {figure.key: deflated(figure.svg.read_text(encoding="utf-8")) for figure in shown}
+
+
+def _numbers(report: Report) -> dict[str, str]:
+    """Return the numbers behind every figure that the page shows, as deflated CSV."""
+    items = [item for section in report.sections for item in section.items]
+    shown = [figure for item in items if isinstance(item, Figures) and not item.pdf_only for figure in item.items]
+    shown += [item.picture for item in items if isinstance(item, FirstScreen) and item.picture is not None]
+    return {figure.key: deflated(figure.data.read_text(encoding="utf-8")) for figure in shown if figure.data}
 
 
 def _folded(report: Report, environment: jinja2.Environment) -> dict[str, str]:

@@ -7,12 +7,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..compare.tables import MetricRow
+from ..compare.thinned import pack
 from ..history import History
 from ..palette import Look
 from . import wording
 from .cases import CaseView, factor_levels
 from .content import Mark, Widget
-from .histories import pack, samples_each
+from .histories import samples_each
 from .html import deflated
 from .marks import Marks, by_origin
 from .models import judged

@@ -92,9 +92,10 @@ def pressure_map(
 
     caption = f"{label}. {engine}. Largest value {values.max():.2f} MPa; the scale ends at the 97th percentile."
     size = (WIDTH, HEIGHT + 0.3)
-    return draw(
-        folder, f"pressure-map-{case.case_id}", "Contact pressure over the face, FE", caption, paint, marks, size
-    )
+    header = ("x_mm", "across_mm", "contact_pressure_MPa")
+    numbers = (header, zip(place.tolist(), across.tolist(), values.tolist(), strict=True))
+    key = f"pressure-map-{case.case_id}"
+    return draw(folder, key, "Contact pressure over the face, FE", caption, paint, marks, size, numbers=numbers)
 
 
 def _means(face: pd.DataFrame | None) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None:

@@ -63,7 +63,9 @@ def heat(
     key = f"heat-{pair[0]}-{pair[1]}".replace(":", "-")
     caption = f"Colours from blue, {wording.percent(-limit)}, over white, none, to orange, {wording.percent(limit)}; "
     caption += "one scale for all models."
-    return draw(folder, key, f"Error of the peak normal force, {names}", caption, paint, marks, size, wide=True)
+    numbers = (("case_id", "error"), list(values.items()))
+    title = f"Error of the peak normal force, {names}"
+    return draw(folder, key, title, caption, paint, marks, size, wide=True, numbers=numbers)
 
 
 def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: str, marks: tuple[Mark, ...]) -> Drawn:
@@ -81,20 +83,27 @@ def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: s
     def paint(axes: Axes) -> None:
         every = np.array([point for found in points.values() for point in found])
         ends = np.array([0.85 * every.min(), 1.18 * every.max()])
-        axes.plot(ends, ends, color="#000", lw=0.9)
+        axes.plot(ends, ends, color="#000", lw=0.9, label="_equal")
         for pair, found in points.items():
             look = looks[pair[0]]
             stats = tables.statistics(pair, quantity)
+            name = wording.source(pair[0])
             bias, sigma = (None, None) if stats is None else (stats.bias, stats.model_scatter)
             if bias is not None:
-                axes.plot(ends, bias * ends, color=look.color, lw=1.2, ls="--")
+                axes.plot(ends, bias * ends, color=look.color, lw=1.2, ls="--", label=f"_bias, {name}")
                 if sigma is not None:
                     spread = np.exp(2.0 * sigma)
                     axes.fill_between(
-                        ends, bias * ends / spread, bias * ends * spread, color=look.color, alpha=0.15, lw=0
+                        ends,
+                        bias * ends / spread,
+                        bias * ends * spread,
+                        color=look.color,
+                        alpha=0.15,
+                        lw=0,
+                        label=f"_bias times exp(±2σ), {name}",
                     )
             x, y = np.array(found).T
-            label = f"{wording.source(pair[0])} compared with {wording.source(pair[1])}"
+            label = f"{name} compared with {wording.source(pair[1])}"
             axes.plot(x, y, look.marker, ms=4, color=look.color, mec="white", mew=0.5, label=label)
         unit = own[0].unit
         axes.set(xscale="log", yscale="log", xlabel=f"reference, {unit}", ylabel=f"predicted, {unit}")

@@ -8,13 +8,14 @@ from pathlib import Path
 from matplotlib.axes import Axes
 
 from ...compare.rig_peaks import RigPeak
+from ...compare.thinned import thin
 from ...history import History
 from ...palette import BLUE, GREEN, VERMILION, Look
 from ...units import IN_MS
 from .. import wording
 from ..cases import CaseView
 from ..content import Mark
-from ..histories import thin
+from ..histories import SAMPLES
 from ..tables import Tables
 from .style import Drawn, draw
 
@@ -36,7 +37,7 @@ def history_panel(
     def paint(axes: Axes) -> None:
         for source in [name for name in looks if name in histories]:
             history, look = histories[source], looks[source]
-            keep = thin(history)
+            keep = thin(history, SAMPLES)
             if force != "normal" and not history.gives_tangential:
                 continue
             values = history.normal_force if force == "normal" else history.tangential_force
@@ -87,12 +88,21 @@ def peaks_panel(
                         ms=4,
                         lw=1.1,
                         color=colors[depth],
+                        label=f"_{wording.source(source)}, {depth} mm",
                     )
         for view in chosen:
             measured, speed = rig.get(view.case_id), view.row.speed_m_s
             if measured is not None:
                 color = colors[view.levels["interference_mm"]]
-                axes.plot([speed, speed], [measured.lowest, measured.highest], "_-", color=color, lw=1.0, ms=6)
+                axes.plot(
+                    [speed, speed],
+                    [measured.lowest, measured.highest],
+                    "_-",
+                    color=color,
+                    lw=1.0,
+                    ms=6,
+                    label="_measured range",
+                )
         for depth in depths:
             axes.plot([], [], color=colors[depth], label=f"{depth} mm")
         for source, look in looks.items():

@@ -48,6 +48,7 @@ def belt_heights(folder: Path, paths: Mapping[str, Case], marks: tuple[Mark, ...
                         ms=2.5,
                         lw=0.6,
                         color=color if own else "#9aa3ab",
+                        label=f"_ridge {ridge}",
                     )
         axes.set(xlabel="distance from the middle of the patch, mm", ylabel="height over the flat patch, mm")
         axes.legend()
@@ -85,9 +86,11 @@ def rig_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
     depth = case.interference / MM
 
     def paint(axes: Axes) -> None:
-        axes.add_patch(Circle((0, -big), big, fill=False, ec=BLACK, lw=1.2))
-        axes.add_patch(Circle((0, small - depth), small - case.height / MM, fill=False, ec=BLUE, lw=1.2))
-        axes.add_patch(Circle((0, small - depth), small, fill=False, ec=BLUE, lw=0.6, ls="--"))
+        axes.add_patch(Circle((0, -big), big, fill=False, ec=BLACK, lw=1.2, label="big wheel"))
+        axes.add_patch(
+            Circle((0, small - depth), small - case.height / MM, fill=False, ec=BLUE, lw=1.2, label="small wheel")
+        )
+        axes.add_patch(Circle((0, small - depth), small, fill=False, ec=BLUE, lw=0.6, ls="--", label="tread surface"))
         _block(axes, path_of(case), (0.5,))
         axes.plot(0, small - depth, "+", color=BLUE)
         axes.annotate(f"big wheel, R₂ = {big:g} mm", (0, -0.45 * small), ha="center", fontsize=7.5)
@@ -162,7 +165,7 @@ def _block(axes: Axes, path: BlockPath, instants: tuple[float, ...]) -> None:
         top, face = path.at(s, t), path.free_face(s, t)
         x = np.concatenate([top.x, face[0][::-1]]) / MM
         y = np.concatenate([top.y, face[1][::-1]]) / MM
-        axes.fill(x, y, color=ORANGE, alpha=0.55, lw=0)
+        axes.fill(x, y, color=ORANGE, alpha=0.55, lw=0, label="_stress-free block")
 
 
 def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...], height: float) -> Drawn:
@@ -187,7 +190,8 @@ def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...], height: 
         f"{len(bricks)} bricks, {used.size} nodes; block {height:.3g} mm high in a bounding box of {size[0]:.3g} x "
         f"{size[1]:.3g} x {size[2]:.3g} mm (its face follows the path); finer towards the contact face, shown on top."
     )
-    return draw(folder, f"mesh-{file.parent.name}", title, caption, paint, marks, (WIDTH, 2.7))
+    nodes = (("x_mm", "y_mm", "z_mm"), np.round(points[used], 3).tolist())
+    return draw(folder, f"mesh-{file.parent.name}", title, caption, paint, marks, (WIDTH, 2.7), numbers=nodes)
 
 
 def _visible(points: NDArray[np.float64], bricks: NDArray[np.int64]) -> NDArray[np.float64]:

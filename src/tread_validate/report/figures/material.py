@@ -36,7 +36,14 @@ def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple
                 color="#9aa3ab",
                 label="data, shifted",
             )
-            axes.plot(curve.angular_frequency, curve.loss_modulus / MPA, "o", ms=2, color="#9aa3ab")
+            axes.plot(
+                curve.angular_frequency,
+                curve.loss_modulus / MPA,
+                "o",
+                ms=2,
+                color="#9aa3ab",
+                label="_loss modulus, shifted",
+            )
         if isinstance(compound, FractionalZener):
             data = np.geomspace(low, high, 29)
             modulus = surrogate_modulus(compound, data)
@@ -76,7 +83,14 @@ def friction(folder: Path, name: str, friction_law: Friction, root: Path, marks:
             axes.plot(speed, values, style, color=color, label=f"{pressure / MPA:.3g} MPa")
             if data is not None:
                 near = data.pressures[data.pressure_level] == pressure
-                axes.plot(data.slip_speed[near], data.coefficient[near], "o", ms=2.5, color=color)
+                axes.plot(
+                    data.slip_speed[near],
+                    data.coefficient[near],
+                    "o",
+                    ms=2.5,
+                    color=color,
+                    label=f"_measured, {pressure / MPA:.3g} MPa",
+                )
         axes.axhline(rule.static_coefficient, color=PURPLE, lw=1.0)
         axes.text(1.1e-4, rule.static_coefficient, " static", color=PURPLE, va="bottom", fontsize=7.5)
         axes.set(xscale="log", xlabel="slip speed, m/s", ylabel="coefficient of friction", ylim=(0, None))

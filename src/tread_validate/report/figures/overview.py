@@ -10,6 +10,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ...compare.tables import MetricRow
+from ...compare.thinned import thin
+from ...files import write_text
 from ...history import History
 from ...palette import Look
 from ...plotting import canvas, note, save, styled
@@ -17,8 +19,9 @@ from ...units import IN_MS
 from .. import wording
 from ..cases import CaseView
 from ..content import Figure, Mark
-from ..histories import thin
+from ..histories import SAMPLES
 from ..marks import in_words
+from .numbers import numbers_text
 
 SIZE = (6.6, 2.75)  # inches
 PEAK = {"normal": "peak_normal_force", "tangential": "peak_positive_tangential_force"}
@@ -47,12 +50,13 @@ def overview(
         figure.legend(handles, labels, loc="outside upper left", ncols=min(4, len(labels)))
         if marks:
             note(figure, in_words(marks), low=True)
-        svg = folder / "overview.svg"
+        svg, data = folder / "overview.svg", folder / "overview.csv"
         save(figure, svg)
+        write_text(data, numbers_text(grid))
     caption = f"{view.label}."
     if reference:
         caption += f" Band: {wording.source(reference)} and the expanded uncertainty U of its peak's comparison."
-    return Figure("overview", "One case: reference and models", caption, svg, marks, wide=True)
+    return Figure("overview", "One case: reference and models", caption, svg, marks, wide=True, data=data)
 
 
 def _panel(
@@ -60,7 +64,7 @@ def _panel(
 ) -> None:
     for source in drawn:
         history, look = histories[source], looks[source]
-        keep = thin(history)
+        keep = thin(history, SAMPLES)
         axes.plot(
             IN_MS * history.time[keep], _values(history, force)[keep], linestyle=look.line, color=look.color,
             label=wording.source(source),
@@ -82,6 +86,9 @@ def _band(axes: Axes, history: History, force: str, errors: tuple[MetricRow, ...
     widest = max(known, key=lambda row: row.uncertainty or 0.0)
     values = _values(history, force)
     width = (widest.uncertainty or 0.0) * (np.abs(values) if widest.error_type == "relative" else np.ones(values.size))
-    keep = thin(history)
+    keep = thin(history, SAMPLES)
     time = IN_MS * history.time[keep]
-    axes.fill_between(time, (values - width)[keep], (values + width)[keep], color="#9aa3ab", alpha=0.35, lw=0)
+    axes.fill_between(
+        time, (values - width)[keep], (values + width)[keep], color="#9aa3ab", alpha=0.35, lw=0,
+        label="_band of the expanded uncertainty",
+    )  # fmt: skip

@@ -37,11 +37,20 @@ def coefficients(folder: Path, tables: Tables, sources: list[str], coefficient: 
             own = marks_color(source)
             low, high = row.low, row.high
             if row.ci_low is not None and row.ci_high is not None:
-                axes.plot([100 * row.ci_low, 100 * row.ci_high], [place, place], lw=1.0, color=own)
+                axes.plot(
+                    [100 * row.ci_low, 100 * row.ci_high],
+                    [place, place],
+                    lw=1.0,
+                    color=own,
+                    label="_confidence interval",
+                )
             if low is not None and high is not None:
-                axes.plot([100 * low, 100 * high], [place, place], lw=3.5, color=own, alpha=0.45, solid_capstyle="butt")
+                axes.plot(
+                    [100 * low, 100 * high], [place, place], lw=3.5, color=own, alpha=0.45, solid_capstyle="butt",
+                    label="_spread over the data sets",
+                )  # fmt: skip
             marker = "s" if row.shape == "rectangle" else "D"
-            axes.plot(100 * value, place, marker, ms=5, color=own)
+            axes.plot(100 * value, place, marker, ms=5, color=own, label="_mean")
             labels.append(f"{wording.source(source)}, {row.shape}")
         axes.set_yticks(np.arange(len(labels)), labels, fontsize=7.0)
         axes.invert_yaxis()

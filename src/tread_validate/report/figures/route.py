@@ -28,10 +28,10 @@ def sweeps(folder: Path, name: str, route: MaterialRoute, marks: tuple[Mark, ...
         for index, sweep in enumerate(route.sweeps):
             color = RAMP(0.9 * index / last)
             w, modulus = sweep.angular_frequency, sweep.storage_modulus / MPA
-            axes.plot(w, modulus, "o", ms=2.5, color=color, mfc="none")
+            axes.plot(w, modulus, "o", ms=2.5, color=color, mfc="none", label=f"_measured, {sweep.temperature:.3g} °C")
             axes.plot(w, route.curve(index)[0] / MPA, color=color, lw=1.0, label=f"{sweep.temperature:.3g} °C")
             aside = route.set_aside(index)
-            axes.plot(w[aside], modulus[aside], "x", ms=5, color=VERMILION)
+            axes.plot(w[aside], modulus[aside], "x", ms=5, color=VERMILION, label="_set aside")
         axes.set(xscale="log", yscale="log", xlabel="angular frequency, rad/s", ylabel="storage modulus, MPa")
         axes.legend(ncols=2)
 
@@ -50,7 +50,14 @@ def master(folder: Path, name: str, route: MaterialRoute, marks: tuple[Mark, ...
         axes.plot(
             curve.angular_frequency, curve.storage_modulus / MPA, "o", ms=2, color="#9aa3ab", label="data, shifted"
         )
-        axes.plot(curve.angular_frequency, curve.loss_modulus / MPA, "o", ms=2, color="#9aa3ab")
+        axes.plot(
+            curve.angular_frequency,
+            curve.loss_modulus / MPA,
+            "o",
+            ms=2,
+            color="#9aa3ab",
+            label="_loss modulus, shifted",
+        )
         axes.plot(w, series.storage_modulus(w) / MPA, color=BLUE, label="E′, Prony series")
         axes.plot(w, series.loss_modulus(w) / MPA, "--", color=VERMILION, label="E″, Prony series")
         axes.axvspan(*route.band, color="#eef1f4", zorder=0)
@@ -87,7 +94,7 @@ def ridges(folder: Path, name: str, traces: tuple[LevelledTrace, ...], marks: tu
     def paint(axes: Axes) -> None:
         for index, trace in enumerate(traces):
             color = COLORS[index % len(COLORS)]
-            axes.plot(trace.measured_x / MM, trace.measured_height / MM, ".", ms=2.5, color=color)
+            axes.plot(trace.measured_x / MM, trace.measured_height / MM, ".", ms=2.5, color=color, label="_measured")
             axes.plot(trace.x / MM, trace.height / MM, color=color, lw=1.0, label=trace.name.replace("_", " "))
         axes.set(xlabel="distance from the middle of the patch, mm", ylabel="height over the flat patch, mm")
         axes.legend()

@@ -9,9 +9,11 @@ from pathlib import Path
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 
+from ...files import write_text
 from ...plotting import MARGINS, note, panel, save, styled
 from ..content import Figure, Figures, Item, Mark, Paragraph
 from ..marks import in_words
+from .numbers import Numbers, numbers_text
 
 SIGNS_PER_INCH, HANDLE, LINE = 15.0, 8, 0.17  # of a legend: signs an inch, width of a handle in signs, inches a line
 
@@ -33,17 +35,22 @@ def draw(
     marks: tuple[Mark, ...] = (),
     size: tuple[float, float] | None = None,
     wide: bool = False,
+    numbers: Numbers | None = None,
 ) -> Drawn:
-    """Paint one panel and save it as SVG; a note of its marks is printed in the figure itself."""
+    """Paint one panel, save it as SVG and its numbers as CSV; a note of its marks is printed in the figure itself.
+
+    `numbers` stand for what cannot be read back from the panel.
+    """
     with styled():
         canvas, axes = panel(size)
         paint(axes)
         _legend_above(canvas, axes)
         if marks:
             note(canvas, in_words(marks))
-        svg = folder / f"{key}.svg"
+        svg, data = folder / f"{key}.svg", folder / f"{key}.csv"
         save(canvas, svg)
-    return Drawn(Figure(key, title, caption, svg, marks, wide))
+        write_text(data, numbers_text([axes], numbers))
+    return Drawn(Figure(key, title, caption, svg, marks, wide, data))
 
 
 def _legend_above(canvas: Canvas, axes: Axes) -> None:

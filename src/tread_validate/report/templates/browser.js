@@ -10,14 +10,12 @@ TV.browser = (function () {
     return JSON.parse(await TV.inflate(data.packed[id]));
   }
 
-  /* packed histories: whole numbers times a scale; times as differences */
+  /* packed histories: differences, in whole multiples of a scale */
   function unpack(packed) {
-    let sum = 0;
+    const sums = (steps, scale) => { let sum = 0; return steps && steps.map((step) => (sum += step) * scale); };
     return {
-      time: packed.t.map((step) => (sum += step) * packed.ts),
-      normal: packed.n.map((value) => value * packed.ns),
-      tangential: packed.q && packed.q.map((value) => value * packed.qs),
-      slipping: packed.s && packed.s.map((value) => value / 1000),
+      time: sums(packed.t, packed.ts), normal: sums(packed.n, packed.ns),
+      tangential: sums(packed.q, packed.qs), slipping: sums(packed.s, 0.001),
     };
   }
 
@@ -139,19 +137,6 @@ TV.browser = (function () {
     return true;
   }
 
-  function saveCsv(event) {
-    event.preventDefault();
-    const lines = ["source,time_ms,normal_force_N,longitudinal_force_N,sliding_area_fraction"];
-    for (const source of data.sources) {
-      const packed = held && held.histories[source.key];
-      if (!packed) { continue; }
-      const series = unpack(packed);
-      series.time.forEach((time, i) => lines.push([source.key, time, series.normal[i], series.tangential[i], series.slipping[i]]
-        .map((value) => (typeof value === "number" ? Number(value.toPrecision(7)) : value)).join(",")));
-    }
-    TV.figures.save(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }), current.id + ".csv");
-  }
-
   function step(by) {
     const index = data.cases.indexOf(current);
     show(data.cases[(index + by + data.cases.length) % data.cases.length].id, true);
@@ -167,7 +152,6 @@ TV.browser = (function () {
     document.getElementById("case-previous").addEventListener("click", () => step(-1));
     document.getElementById("case-next").addEventListener("click", () => step(1));
     window.addEventListener("hashchange", () => fromHash(true));
-    document.getElementById("case-csv").addEventListener("click", saveCsv);
     const redraw = () => { if (held && visible) { drawHistories(held); } };
     TV.near(document.getElementById("case-plot"), () => { visible = true; redraw(); });
     TV.dark.addEventListener("change", redraw);
