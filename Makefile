@@ -13,19 +13,19 @@ TRUST_MODELS ?= 0
 SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) trust_models=$(TRUST_MODELS) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
-.PHONY: help report check map test lint verify reference mesh-study ladder bench docs test-cluster test-robustness clean
+.PHONY: help report check map test lint verify reference mesh-study hierarchy bench docs test-cluster test-robustness clean
 
 help: ## Show this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 report: $(BIN)/.installed ## Set up, run STUDY and write reports/<its name>/index.html and report.pdf
 	@$(SNAKEMAKE)
-	@$(BIN)/tread-validate verdict $(STUDY)
+	@$(BIN)/tread-validate assessment $(STUDY)
 
-check: $(BIN)/.installed ## The same without the report; 1 where the baseline moved or a verdict flipped, 3 without anything compared; of one model or some cases alone with MODEL=paper, CASES="ID ID"
+check: $(BIN)/.installed ## The same without the report; 1 where the baseline moved or an assessment flipped, 3 without anything compared; of one model or some cases alone with MODEL=paper, CASES="ID ID"
 ifeq ($(strip $(MODEL)$(CASES)),)
 	@$(SNAKEMAKE) checked
-	@$(BIN)/tread-validate verdict $(STUDY) --gate
+	@$(BIN)/tread-validate assessment $(STUDY) --gate
 else
 	@$(BIN)/tread-validate check-model $(STUDY) $(MODEL:%=--model %) $(CASES:%=--case %) --jobs $(CORES) $(if $(filter 1,$(TRUST_MODELS)),--trust-models)
 endif
@@ -50,8 +50,8 @@ reference: $(BIN)/.installed gfortran ## Run the study's FE engine for every cas
 mesh-study: $(BIN)/.installed gfortran ## Three meshes of one typical case of every kind of path and block, extrapolated
 	@$(SNAKEMAKE) mesh_study
 
-ladder: $(BIN)/.installed ## Run the model ladder anew: error and cost of every rung, effects, sensitivity
-	@$(SNAKEMAKE) ladder
+hierarchy: $(BIN)/.installed ## Run the model hierarchy anew: error and cost of every level, effects, sensitivity
+	@$(SNAKEMAKE) hierarchy
 
 map: $(BIN)/.installed gfortran ## Where each model may be believed: FE over the dimensionless groups; goes on where it was
 	@$(BIN)/tread-validate map $(STUDY) --runs $(MAP_RUNS) --minutes $(MAP_MINUTES) --jobs $(CORES) -o results/map

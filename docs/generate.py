@@ -85,14 +85,14 @@ def validation() -> str:
     ensemble = [row for row in rows("ensemble.csv") if row["quantity"] == "peak_normal_force" and row["group"] == "all"]
     # as the report counts: what a model predicts, not what was put in or made to fit
     claims = [row for row in rows("claims.csv") if row["kind"] == "model" and row["status"] != "not_compared"]
-    verdicts: dict[str, dict[str, int]] = {}
+    assessments: dict[str, dict[str, int]] = {}
     for row in claims:
         source = row["source"] or "input"
-        verdicts.setdefault(source, {}).setdefault(row["verdict"], 0)
-        verdicts[source][row["verdict"]] += 1
+        assessments.setdefault(source, {}).setdefault(row["assessment"], 0)
+        assessments[source][row["assessment"]] += 1
     counted = [
         {"source": source, **{name: str(count.get(name, 0)) for name in ("agrees", "disagrees", "cannot tell")}}
-        for source, count in verdicts.items()
+        for source, count in assessments.items()
     ]
     coefficients = [row for row in rows("regression.csv") if row["set"] == "mean"]
     return "\n\n".join(

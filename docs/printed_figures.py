@@ -4,7 +4,7 @@ A figure that comes from the pipeline stands between two comments, which a reade
 
     <!--= ensemble all/spring:paper/fe:embedded/peak_normal_force/scalar mean_abs_error percent1 -->41.5 %<!--/-->
 
-The comment names a table of `reports/liu2010/baseline/` (or `ladder.` and one of `reference_data/ladder/liu2010/`), the
+The comment names a table of `reports/liu2010/baseline/` (`hierarchy.`: one of `reference_data/hierarchy/liu2010/`), the
 key of a row (in the order of the table's key columns, `-` for a space), a column and a format.
 
 Usage: python docs/printed_figures.py [--check]. Without --check the figures are written anew; with it a figure that
@@ -64,12 +64,12 @@ def value_of(what: str) -> str:
     if table == "grades":
         source, quantity = rest
         return _grades(source, quantity)
-    if table == "verdicts":
-        source, quantity, verdict = rest
-        return str(_verdicts(source, quantity)[verdict.replace("-", " ")])
+    if table == "assessments":
+        source, quantity, assessment = rest
+        return str(_assessments(source, quantity)[assessment.replace("-", " ")])
     key, column, shape = rest
-    if table.startswith("ladder."):
-        row = _ladder(table.removeprefix("ladder."))[key]
+    if table.startswith("hierarchy."):
+        row = _hierarchy(table.removeprefix("hierarchy."))[key]
     else:
         names = TABLES[table].key
         row = {_key(cells[name] for name in names): cells for cells in _baseline()[table]}[key]
@@ -83,10 +83,10 @@ def _baseline() -> dict[str, tuple[dict[str, str], ...]]:
 
 
 @cache
-def _ladder(name: str) -> dict[str, dict[str, str]]:
-    text = read_text(ROOT / "reference_data" / "ladder" / STUDY / f"{name}.csv")
+def _hierarchy(name: str) -> dict[str, dict[str, str]]:
+    text = read_text(ROOT / "reference_data" / "hierarchy" / STUDY / f"{name}.csv")
     rows = list(csv.DictReader(text.splitlines()))
-    return {_key((row["rung"], row.get("group") or row["figure"])): row for row in rows}
+    return {_key((row["level"], row.get("group") or row["figure"])): row for row in rows}
 
 
 def _key(parts: Iterable[str]) -> str:
@@ -105,8 +105,8 @@ def _grades(source: str, quantity: str) -> str:
     return ", ".join(f"{counts[grade]} {grade}" for grade in GRADES if counts[grade])
 
 
-def _verdicts(source: str, quantity: str) -> Counter[str]:
-    return Counter(row["verdict"] for row in _errors(source, quantity, "scalar"))
+def _assessments(source: str, quantity: str) -> Counter[str]:
+    return Counter(row["assessment"] for row in _errors(source, quantity, "scalar"))
 
 
 def pages() -> list[Path]:

@@ -221,7 +221,7 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "error": -0.1 if there else "",
                     "error_type": "relative",
                     "passed": "false" if there else "",
-                    "verdict": "inadequate" if there else "cannot tell",
+                    "assessment": "inadequate" if there else "cannot tell",
                     "note": "",
                 }
             )
@@ -237,7 +237,7 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "error": 0.07 if there else "",
                     "error_type": "relative",
                     "passed": "",
-                    "verdict": "cannot tell",
+                    "assessment": "cannot tell",
                     "note": "",
                 }
             )
@@ -252,7 +252,7 @@ def _errors(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "error": -0.09 if there else "",
                     "error_type": "score",
                     "passed": "",
-                    "verdict": "cannot tell",
+                    "assessment": "cannot tell",
                     "note": "",
                     "grade": "good" if there else "",
                 }
@@ -376,7 +376,7 @@ def _regressions() -> dict[str, pd.DataFrame]:
 
 def _claims() -> pd.DataFrame:
     rows = []
-    for i, (verdict, computed) in enumerate((("agrees", 203.0), ("disagrees", 260.0), ("cannot tell", ""))):
+    for i, (assessment, computed) in enumerate((("agrees", 203.0), ("disagrees", 260.0), ("cannot tell", ""))):
         rows.append(
             {
                 "claim_id": f"c{i}",
@@ -394,7 +394,7 @@ def _claims() -> pd.DataFrame:
                 "computed": computed,
                 "error": 0.015 if computed else "",
                 "error_type": "relative",
-                "verdict": verdict,
+                "assessment": assessment,
                 "status": "current" if computed else "missing",
                 "note": "",
                 "assumed": "compound soft (synthetic)",

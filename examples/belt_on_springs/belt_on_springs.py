@@ -20,7 +20,7 @@ import numpy as np
 
 import tread_validate as tv
 from tread_validate.geometry import path_of
-from tread_validate.spring.coupled.roll import CoupledSettings, step_times
+from tread_validate.spring.condensed.roll import CondensedSettings, step_times
 
 STUDY = Path(__file__).resolve().parents[2] / "config" / "study.yaml"
 CASE = "belt-simplified-60c-0p2mm-16p7mps-creep0p3"
@@ -45,14 +45,14 @@ class Belt:
         return 2.0 * self.damping * self.mass * 2.0 * math.pi * self.frequency
 
 
-def ride(case, belt, model="coupled", tries=6):
+def ride(case, belt, model="condensed", tries=6):
     """Let the block pass under the belt (None: a rigid one).
 
     Returns a dictionary of arrays over time (s): normal, tangential (N), lift (m), speed (m/s), work of N on the belt
     (J), and what the mass, the spring and the damper hold of it (J).
     """
     path, creep = path_of(case), case.creep_ratio
-    time = step_times(path, case.height / 8.0, CoupledSettings(middle_step=0.5, longest_step=0.5))
+    time = step_times(path, case.height / 8.0, CondensedSettings(middle_step=0.5, longest_step=0.5))
     block = tv.TreadBlock(case, model)
     middle = 0.5 * path.columns.extent
     at = path.at(middle, time)

@@ -123,7 +123,7 @@ class Comparison:
         return "\n".join(f"{row.quantity:32} {row.metric:22} {_error(row)}" for row in self.rows)
 
     def _repr_html_(self) -> str:
-        shown = ["quantity", "metric", "unit", "reference", "predicted", "error", "error_type", "verdict"]
+        shown = ["quantity", "metric", "unit", "reference", "predicted", "error", "error_type", "assessment"]
         return str(self.to_frame()[shown].to_html(index=False, na_rep="not given"))
 
 
@@ -207,5 +207,5 @@ def report(
     data = Path(root) / "reference_data" if references is None else Path(references)
     target = place.reports if out is None else Path(out)
     build_tables(file, place.spring, data, place.tables, place.decks)
-    build_report(file, place.tables, place.spring, data, place.decks, target, ladder_dir=data / "ladder" / name)
+    build_report(file, place.tables, place.spring, data, place.decks, target, hierarchy_dir=data / "hierarchy" / name)
     return target / "index.html"

@@ -1,6 +1,6 @@
 """What the fields of an input file are made of: strict models, ranges with names, and marks for the digest.
 
-Keys carry their unit (``_mm``, ``_degC``). Every input names its origin, so that a number which rests on an assumed or
+Keys carry their unit (``_mm``, ``_degC``). Every input names its origin, so a number that depends on an assumed or
 synthetic input can be marked wherever it is shown.
 """
 

@@ -37,7 +37,7 @@ class ModelCheck:
     found : Comparison
         Of these models and cases alone.
     accepted : tuple of str
-        The models that the baseline has rows of; the others are held against nothing.
+        The models that the baseline has rows of; the others are compared with nothing.
     check : Check or None
         None where the baseline has no row of any of them.
     """

@@ -1,4 +1,4 @@
-"""What the loop of a model's developer says: verdicts, better and worse, then the rows furthest out."""
+"""What the loop of a model's developer says: assessments, better and worse, then the rows furthest out."""
 
 from __future__ import annotations
 

@@ -39,11 +39,11 @@ PARTS: Mapping[str, tuple[str, ...]] = {
     "calculix": ("calculix.engine",),
     "abaqus": ("reference.abaqus",),
     "compare": ("compare.*", "spring.block_pass"),
-    "ladder": ("ladder.*", "spring.*"),
+    "hierarchy": ("hierarchy.*", "spring.*"),
     "report": ("report.*", "spring.block_pass"),
 }
 """Parts and the modules that they begin with (``x.*``: a whole package). `deck`, `compare` and `report` include the
-spring model that finds the creep of free rolling, `ladder` all variants. The parts of the spring model are its
+spring model that finds the creep of free rolling, `hierarchy` all variants. The parts of the spring model are its
 variants, see `spring.variants.code_digest`."""
 
 
@@ -56,7 +56,7 @@ def code_digest(part: str) -> str:
 
 @cache
 def digest_of(entries: tuple[str, ...], root: Path = PACKAGE) -> str:
-    """Return the digest of everything that the entry modules rest on: 16 hex digits of a SHA-256.
+    """Return the digest of everything that the entry modules depend on: 16 hex digits of a SHA-256.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def digest_of(entries: tuple[str, ...], root: Path = PACKAGE) -> str:
 
 
 def modules_of(entries: Sequence[str], root: Path = PACKAGE) -> tuple[str, ...]:
-    """Return the modules that the entries rest on, in order; ``<package> (names)`` is an ``__init__`` that only passes
+    """Return the modules that the entries depend on, in order; ``<package> (names)`` is an ``__init__`` that passes
     names on."""
     return tuple(sorted(_graph(root).closure(entries)))
 
@@ -112,7 +112,7 @@ class Graph:
         return self.modules[name]
 
     def closure(self, entries: Iterable[str]) -> set[str]:
-        """Return the names of all modules that the entries rest on, themselves included."""
+        """Return the names of all modules that the entries depend on, themselves included."""
         found: set[str] = set()
         waiting: list[str] = []
         for entry in entries:

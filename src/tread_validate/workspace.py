@@ -48,9 +48,9 @@ class Workspace:
         return self.results / "tables"
 
     @property
-    def ladder(self) -> Path:
-        """Tables of the model ladder."""
-        return self.results / "ladder"
+    def hierarchy(self) -> Path:
+        """Tables of the model hierarchy."""
+        return self.results / "hierarchy"
 
     @property
     def reports(self) -> Path:

@@ -17,7 +17,7 @@ from tread_validate.study import Case, DeckSettings, load_study
 
 ROOT = Path(__file__).resolve().parents[2]
 CREEP = 0.0029
-INCLUDE = "c     stand-in for the file that comes with ABAQUS, double precision\n      implicit real*8 (a-h,o-z)\n"
+INCLUDE = "c     in place of the file that comes with ABAQUS, double precision\n      implicit real*8 (a-h,o-z)\n"
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-std=legacy", "-ffixed-form", "-ffixed-line-length-72"]
 
 

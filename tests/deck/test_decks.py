@@ -123,7 +123,9 @@ def test_constant_friction_variant_differs_in_the_friction_alone(rig_case: Case,
     assert deck.build(silent).constant_friction_text is None
 
 
-def test_pass_begins_at_the_first_touch_and_alone_is_recorded(belt_case: Case, coarse: Coarse, tmp_path: Path) -> None:
+def test_pass_begins_at_the_first_contact_and_alone_is_recorded(
+    belt_case: Case, coarse: Coarse, tmp_path: Path
+) -> None:
     """Two steps, 2 ms without contact and the pass; contact, energy and reaction histories in the second only."""
     text = _back(coarse(belt_case), tmp_path)
     names = [block.keyword for block in text.blocks]

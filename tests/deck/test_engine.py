@@ -38,7 +38,7 @@ def test_vfric_with_a_constant_coefficient_gives_the_history_of_built_in_frictio
     ("kind", "mounting"),
     [("rig_case", "conforming"), ("rig_case", "flat"), ("belt_case", "flat"), ("trace_case", "flat")],
 )
-def test_pass_begins_at_the_first_touch_and_ends_clear_of_the_road(
+def test_pass_begins_at_the_first_contact_and_ends_clear_of_the_road(
     kind: str, mounting: str, request: pytest.FixtureRequest, tmp_path: Path
 ) -> None:
     """Next to no force at t = 0, none at the end, and the peak in between; T > 0 first, T < 0 later (free rolling).

@@ -65,7 +65,7 @@ def test_changing_speed_and_interference_by_hand_is_the_deck_of_that_speed_and_i
 ) -> None:
     """10 % faster and 15 % deeper: peaks to 0.1 %, every instant to 1 % of the peak (measured 0.005 % and 0.5 %).
 
-    What is left is the lead-in, which a change of speed shortens, and the first touch, taken to second order.
+    What is left is the lead-in, which a change of speed shortens, and the first contact, taken to second order.
     """
     case = coarse(request.getfixturevalue(kind))
     other = replace(case, speed=1.1 * case.speed, interference=1.15 * case.interference)

@@ -16,7 +16,7 @@ from tread_validate.deck.vfric import GENERAL, properties, source
 from tread_validate.friction import FORMS, coulomb_law, huemer_law
 
 Array = NDArray[np.float64]
-INCLUDE = "c     stand-in for the file that comes with ABAQUS, double precision\n      implicit real*8 (a-h,o-z)\n"
+INCLUDE = "c     in place of the file that comes with ABAQUS, double precision\n      implicit real*8 (a-h,o-z)\n"
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-std=legacy", "-ffixed-form", "-ffixed-line-length-72"]
 DT = 1.3e-6
 HUEMER = huemer_law(0.8212, 0.0, 0.9, 10.0, 3.729, -4.495, 1.785)

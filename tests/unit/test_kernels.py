@@ -31,8 +31,8 @@ _plain = kinetic_kernel
 def kinetic_kernel(*arguments):
     return 2.0 * _plain(*arguments)
 """,
-    "spring/coupled/inputs.py": "\nFREE = 7\n",
-    "spring/coupled/contact.py": "\nPLAIN = _kinetic\n@kernel()\ndef _kinetic(*of):\n    return 2.0 * PLAIN(*of)\n",
+    "spring/condensed/inputs.py": "\nFREE = 7\n",
+    "spring/condensed/contact.py": "\nPLAIN = _kinetic\n@kernel()\ndef _kinetic(*of):\n    return 2.0 * PLAIN(*of)\n",
     "fe/amplitude.py": """
 _plain = amplitude_at
 @kernel()
@@ -47,9 +47,9 @@ import json
 import numpy as np
 from tread_validate.fe.explicit_kernel import advance
 from tread_validate.fe.step_kernel import evaluate_amplitudes
-from tread_validate.spring.coupled.march import march
-from tread_validate.spring.coupled.step import _follow
-from tread_validate.spring.inputs import Grip
+from tread_validate.spring.condensed.march import march
+from tread_validate.spring.condensed.step import _follow
+from tread_validate.spring.inputs import KernelLaw
 from tread_validate.spring.slip import kinetic
 
 one, two, zero = np.ones(1), np.ones(2), np.zeros(1)
@@ -61,7 +61,7 @@ evaluate_amplitudes(
 q = np.zeros((1, 3))
 _follow(np.eye(3, dtype=np.float32), np.array([0]), np.ones((1, 3)), 0, 1, q)
 print(json.dumps({
-    "friction to spring": kinetic(Grip(0.9, 0, np.array([0.7]), one, one, np.ones((1, 1))), 1.0, 1.0),
+    "friction to spring": kinetic(KernelLaw(0.9, 0, np.array([0.7]), one, one, np.ones((1, 1))), 1.0, 1.0),
     "state code to step": q[0, 0],
     "amplitude to FE step": value[0],
     "march": march._cache._cache_file.digest,

@@ -34,11 +34,11 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize(
     ("file", "changed", "kept"),
     [
-        ("spring/coupled/march.py", {"coupled"}, {"paper", "fe", "deck"}),
-        ("spring/element.py", {"paper", "bonded", "coupled", "deck"}, {"fe", "friction", "material"}),
-        ("material/prony.py", {"material", "paper", "coupled", "deck"}, {"fe", "friction"}),
-        ("fe/contact_kernel.py", {"fe"}, {"paper", "coupled", "deck", "compare"}),
-        ("friction/kernel.py", {"friction", "paper", "coupled"}, {"fe", "material"}),
+        ("spring/condensed/march.py", {"condensed"}, {"paper", "fe", "deck"}),
+        ("spring/element.py", {"paper", "shape_factor", "condensed", "deck"}, {"fe", "friction", "material"}),
+        ("material/prony.py", {"material", "paper", "condensed", "deck"}, {"fe", "friction"}),
+        ("fe/contact_kernel.py", {"fe"}, {"paper", "condensed", "deck", "compare"}),
+        ("friction/kernel.py", {"friction", "paper", "condensed"}, {"fe", "material"}),
         ("report/html.py", {"report"}, {"compare", "paper", "fe"}),
         ("deck/mesh.py", {"deck"}, {"paper", "fe"}),
     ],
@@ -90,12 +90,12 @@ def test_a_template_counts_for_the_part_that_it_lies_beside(copy: Path) -> None:
 
 
 def test_names_are_traced_through_packages_to_their_modules(copy: Path) -> None:
-    """The paper's variant needs the friction laws, not the coupled model that its package offers as well."""
+    """The paper's variant needs the friction laws, not the condensed model that its package offers as well."""
     names = modules_of(VARIANTS["paper"])
     assert "friction.laws" in names
     assert "spring (names)" in names
-    assert not any(name.startswith("spring.coupled") for name in names)
-    assert "spring.coupled.march" in modules_of(VARIANTS["coupled"])
+    assert not any(name.startswith("spring.condensed") for name in names)
+    assert "spring.condensed.march" in modules_of(VARIANTS["condensed"])
     assert not any(name.startswith(("spring", "material", "friction")) for name in modules_of(PARTS["fe"]))
 
 

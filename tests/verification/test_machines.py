@@ -40,8 +40,8 @@ for arguments in (
     ["deck", study, "--case", belt, "-o", str(out / "decks")],  # with the search for its creep ratio
     ["spring", study, "--case", rig, "-o", str(out / "paper")],
     ["spring", study, "--case", belt, "-o", str(out / "paper")],
-    ["spring", study, "--case", rig, "--variant", "bonded", "-o", str(out / "bonded")],  # with an elastic solve
-    ["compare", str(out / "paper" / f"{rig}.csv"), str(out / "bonded" / f"{rig}.csv"), "-o", str(out / "compare.csv")],
+    ["spring", study, "--case", rig, "--variant", "shape_factor", "-o", str(out / "shape")],  # elastic solve
+    ["compare", str(out / "paper" / f"{rig}.csv"), str(out / "shape" / f"{rig}.csv"), "-o", str(out / "compare.csv")],
     ["fit-prony", sweeps, "--band", "0.25", "2500", "--resamples", "50", "-o", str(out / "material.yaml")],
     ["fit-friction", str(data / "friction" / "synthetic_tribometer.csv"), "-o", str(out / "friction.yaml")],
     ["import-rig", str(data / "rig" / "synthetic_record.csv"), "-o", str(out / "rig")],
@@ -92,7 +92,13 @@ def test_every_machine_writes_the_same_bytes(files: dict[str, dict[str, str]]) -
     """Decks, friction routine, spring histories, material, friction and rig files, scores and regressions."""
     here = files["as it is"]
     assert {f"decks/{case}/{case}.inp" for case in (RIG, BELT)} <= set(here)
-    assert {f"paper/{BELT}.csv", f"bonded/{RIG}.csv", "material.yaml", "friction.yaml", "coefficients.csv"} <= set(here)
+    assert {
+        f"paper/{BELT}.csv",
+        f"shape/{RIG}.csv",
+        "material.yaml",
+        "friction.yaml",
+        "coefficients.csv",
+    } <= set(here)
     for machine, found in files.items():
         assert set(found) == set(here)
         differing = [name for name in here if found[name] != here[name]]

@@ -38,7 +38,7 @@ def test_filter_halves_the_power_at_its_cutoff_and_shifts_nothing() -> None:
 def test_mean_pass_is_the_exact_force(rig: SyntheticRig) -> None:
     """Noise 0.6 N, drift 10 N, 12-bit steps: the mean of seven passes within 4 % of the exact peak everywhere.
 
-    The largest part of that is first touch, extrapolated 0.1 ms early; the plateau itself is within 1 %.
+    The largest part of that is first contact, extrapolated 0.1 ms early; the plateau itself is within 1 %.
     """
     passes = cut_passes(rig.record)
     kept = rig.peaks[FIRST : FIRST + passes.count].mean() / rig.normal_force.max()

@@ -24,7 +24,7 @@ RADIUS, HALF_PATCH, HEIGHT = 0.5, 0.085, 0.008
 
 
 def approach_angle(interference: float) -> float:
-    """Angle on the arc from first touch to the flat patch: arccos(1 - D/(R + h))."""
+    """Angle on the arc from first contact to the flat patch: arccos(1 - D/(R + h))."""
     return math.acos(1.0 - interference / (RADIUS + HEIGHT))
 
 
@@ -82,19 +82,19 @@ def stuck_element(case: Case) -> tuple[Callable[[float], complex], Callable[[flo
         arc = speed * t - RADIUS * alpha - HALF_PATCH
         edge = -HALF_PATCH if arc.real < -HALF_PATCH else HALF_PATCH
         theta = (arc - edge) / RADIUS if abs(arc.real) > HALF_PATCH else 0.0
-        foot_x = edge + RADIUS * np.sin(theta) if abs(arc.real) > HALF_PATCH else arc
-        foot_y = HEIGHT - case.interference + RADIUS * (1.0 - np.cos(theta))
+        mount_x = edge + RADIUS * np.sin(theta) if abs(arc.real) > HALF_PATCH else arc
+        mount_y = HEIGHT - case.interference + RADIUS * (1.0 - np.cos(theta))
         contact_x = -HALF_PATCH - (RADIUS + HEIGHT) * math.sin(alpha) + road_speed * t
-        return lengths(contact_x - foot_x, -foot_y, theta)
+        return lengths(contact_x - mount_x, -mount_y, theta)
 
     def rig(t: complex) -> tuple[complex, complex]:
         small, big = 0.1, 0.3
         axles = small + big - case.interference
         start = -math.acos((small**2 + axles**2 - big**2) / (2.0 * small * axles))
         theta = start + speed * t / small
-        foot_x, foot_y = (small - HEIGHT) * np.sin(theta), axles - big - (small - HEIGHT) * np.cos(theta)
+        mount_x, mount_y = (small - HEIGHT) * np.sin(theta), axles - big - (small - HEIGHT) * np.cos(theta)
         place = math.asin(small * math.sin(start) / big) + road_speed * t / big
-        return lengths(big * np.sin(place) - foot_x, big * (np.cos(place) - 1.0) - foot_y, theta)
+        return lengths(big * np.sin(place) - mount_x, big * (np.cos(place) - 1.0) - mount_y, theta)
 
     def lengths(bx: complex, by: complex, theta: complex) -> tuple[complex, complex]:
         return HEIGHT - (bx * np.sin(theta) - by * np.cos(theta)), bx * np.cos(theta) + by * np.sin(theta)
@@ -139,9 +139,9 @@ def test_element_forces_are_the_hereditary_integral(spring_case: Build, case_id:
     rows = sticking[np.unique(np.linspace(3, sticking.size - 1, 23).astype(int))]
     assert sticking.size > 0.97 * np.count_nonzero(record[:, TOUCHING])
     ends = rows * block_pass.step
-    compression, lag = stuck_element(case)
+    compression, deflection = stuck_element(case)
     rubber = block_pass.rubber
-    for stretch, column, factor in ((compression, 0, 1.0), (lag, 1, rubber.shear_ratio)):
+    for stretch, column, factor in ((compression, 0, 1.0), (deflection, 1, rubber.shear_ratio)):
         exact = hereditary(stretch, rubber.moduli, rubber.relaxation_times, rubber.long_term_modulus, ends)
         exact *= factor / HEIGHT
         peak = np.abs(record[:, column]).max()
@@ -172,13 +172,15 @@ def test_free_rolling_creep_of_a_sticking_elastic_block_is_the_root_of_its_mean_
     """
     case = spring_case(modulus=16e6, friction=(5.0, 5.0), creep_ratio=None, free_rolling=True)
 
-    def mean_lag(creep_ratio: float) -> float:
-        compression, lag = stuck_element(case.with_creep(creep_ratio))
+    def mean_deflection(creep_ratio: float) -> float:
+        compression, deflection = stuck_element(case.with_creep(creep_ratio))
         end = brentq(lambda t: float(compression(t).real), CORNERS[1] + 1e-5, CORNERS[1] + 2e-3, xtol=1e-14)
         parts = [0.0, *CORNERS, end]
-        return sum(quad(lambda t: float(lag(t).real), a, b, epsabs=1e-16)[0] for a, b in itertools.pairwise(parts))
+        return sum(
+            quad(lambda t: float(deflection(t).real), a, b, epsabs=1e-16)[0] for a, b in itertools.pairwise(parts)
+        )
 
-    expected = brentq(mean_lag, -0.01, 0.01, xtol=1e-12)
+    expected = brentq(mean_deflection, -0.01, 0.01, xtol=1e-12)
     assert free_rolling_creep(case) == pytest.approx(expected, rel=1e-5)
 
 

@@ -142,12 +142,12 @@ def test_friction_never_pulls_harder_than_the_law_allows(spring_case: Build) -> 
     """
     case = spring_case()
     element = element_history(case.with_creep(0.01))
-    grip = prepare(case).grip
+    kernel_law = prepare(case).law
     from tread_validate.friction import law
 
     friction = law(case.friction)
     area = 5e-4 / 50.0
     kinetic = friction.kinetic(element.radial_force / area, element.slip_speed)
-    limit = np.where(element.slips, kinetic, grip.static_coefficient) * element.radial_force
+    limit = np.where(element.slips, kinetic, kernel_law.static_coefficient) * element.radial_force
     assert element.slips.any()
     assert np.all(np.abs(element.friction_force) <= limit * (1.0 + 1e-3) + 1e-9)

@@ -10,7 +10,7 @@ import pytest
 import tread_validate as tv
 from tread_validate.errors import InputError
 from tread_validate.geometry import path_of
-from tread_validate.spring.coupled.roll import roll
+from tread_validate.spring.condensed.roll import roll
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "belt_on_springs" / "belt_on_springs.py"
 RIG = "rig-rectangle-22c-0p2mm-300rpm"
@@ -53,7 +53,7 @@ def test_a_prescribed_path_gives_the_forces_of_the_pass(name, study_cases):
 
 def test_a_copy_goes_its_own_way(study_cases):
     case = study_cases[RIG]
-    block = tv.TreadBlock(case, "coupled_coarse")
+    block = tv.TreadBlock(case, "condensed_coarse")
     block.start((0.0, 9e-3), 0.0)
     block.step(1e-4, (0.0, 7.9e-3), 0.0, 0.0)
     twin = block.copy()
@@ -74,7 +74,7 @@ def test_a_copy_goes_its_own_way(study_cases):
     ],
 )
 def test_a_host_that_errs_is_told_where(study_cases, arguments, said):
-    block = tv.TreadBlock(study_cases[RIG], "coupled_coarse")
+    block = tv.TreadBlock(study_cases[RIG], "condensed_coarse")
     block.start((0.0, 9e-3), 0.0)
     with pytest.raises(InputError, match=said):
         block.step(*arguments)
@@ -82,19 +82,19 @@ def test_a_host_that_errs_is_told_where(study_cases, arguments, said):
 
 def test_a_step_before_the_start_is_refused(study_cases):
     with pytest.raises(InputError, match="start"):
-        tv.TreadBlock(study_cases[RIG], "coupled_coarse").step(1e-4, (0.0, 9e-3), 0.0, 1.0)
+        tv.TreadBlock(study_cases[RIG], "condensed_coarse").step(1e-4, (0.0, 9e-3), 0.0, 1.0)
     with pytest.raises(InputError, match="one of"):
-        tv.TreadBlock(study_cases[RIG], "bonded")
+        tv.TreadBlock(study_cases[RIG], "shape_factor")
 
 
 @pytest.fixture(scope="module")
 def soft(belt, study_cases):
-    return belt.ride(study_cases[BELT], belt.Belt(), "coupled_coarse")
+    return belt.ride(study_cases[BELT], belt.Belt(), "condensed_coarse")
 
 
 @pytest.fixture(scope="module")
 def rigid(belt, study_cases):
-    return belt.ride(study_cases[BELT], None, "coupled_coarse")
+    return belt.ride(study_cases[BELT], None, "condensed_coarse")
 
 
 def test_the_belts_energy_is_the_work_of_the_block_on_it(soft):
@@ -117,7 +117,7 @@ def test_a_belt_that_gives_way_takes_up_part_of_the_compression(soft, rigid, bel
 def test_a_very_stiff_belt_is_a_rigid_one(belt, rigid, study_cases):
     """N/(k D) of the compression is lost, below a thousandth."""
     stiff = replace(belt.Belt(), frequency=25000.0)
-    found = belt.ride(study_cases[BELT], stiff, "coupled_coarse")
+    found = belt.ride(study_cases[BELT], stiff, "condensed_coarse")
     loss = rigid["normal"].max() / (stiff.stiffness * 0.2e-3)
     assert loss < 1e-3
     assert found["normal"].max() == pytest.approx(rigid["normal"].max(), rel=2e-3)

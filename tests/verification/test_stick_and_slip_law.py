@@ -1,4 +1,4 @@
-"""One law of stick and slip (docs/friction.md) in the coupled face: a node on its own, then three that share a block.
+"""One law of stick and slip (docs/friction.md) in the condensed face: a node on its own, then three that share a block.
 
 Springs to the mount make the answers exact: a node of stiffness k is dragged by the road at the speed V.
 """
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tread_validate.friction import coulomb_law
-from tread_validate.spring.coupled.inputs import (
+from tread_validate.spring.condensed.inputs import (
     FREE,
     SLIP,
     STICK,
@@ -20,9 +20,9 @@ from tread_validate.spring.coupled.inputs import (
     fresh_state,
     scratch,
 )
-from tread_validate.spring.coupled.march import Windows, take_step
-from tread_validate.spring.coupled.step import start
-from tread_validate.spring.inputs import Grip
+from tread_validate.spring.condensed.march import Windows, take_step
+from tread_validate.spring.condensed.step import start
+from tread_validate.spring.inputs import KernelLaw
 
 NORMAL, SHEAR, DEPTH, SPEED, DT = 3e5, 1e5, 1e-4, 0.1, 1e-5
 FORCE = NORMAL * DEPTH
@@ -38,8 +38,8 @@ class Springs:
         solid = Solid(1.0, *terms, NO_STRETCH)
         compliance = np.linalg.inv(stiffness).astype(np.float32)
         face = FaceNodes(np.full(n, 1e-6), np.zeros(n, dtype=np.int64), compliance)
-        grip = Grip(law.static_coefficient, *law.kernel_arguments)
-        self.scene = Scene(face, solid, RoadMotion(np.inf, 0.0), grip, Solver(1e-9, 2000))
+        law = KernelLaw(law.static_coefficient, *law.kernel_arguments)
+        self.scene = Scene(face, solid, RoadMotion(np.inf, 0.0), law, Solver(1e-9, 2000))
         pool = stiffness.astype(np.float32).ravel()
         self.windows = Windows(np.array([0, n]), np.array([[-1, 0]]), pool)
         self.state, self.work, self.n = fresh_state(n, terms[0].size), scratch(n, terms[0].size), n

@@ -46,7 +46,7 @@ def tried(small: Small, part: str, file: str, old: str, new: str) -> tuple[str, 
     begun = time.monotonic()
     try:
         made = small.snakemake("checked")
-        done = small.verdict() if made.returncode == 0 else made
+        done = small.assessment() if made.returncode == 0 else made
     finally:
         small.restore(file, text)
     seconds = time.monotonic() - begun

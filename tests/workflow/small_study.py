@@ -55,14 +55,14 @@ class Small:
         options = ("--cores", "2", "--show-failed-logs", "--config", f"study={study}", "--")
         return self.run("snakemake", *options, *arguments)
 
-    def verdict(self, study: str = "config/study.yaml") -> subprocess.CompletedProcess[str]:
-        return self.run("tread-validate", "verdict", study, "--gate")
+    def assessment(self, study: str = "config/study.yaml") -> subprocess.CompletedProcess[str]:
+        return self.run("tread-validate", "assessment", study, "--gate")
 
     def check(self, study: str = "config/study.yaml") -> subprocess.CompletedProcess[str]:
         """Do what `make check` does."""
         made = self.snakemake("checked", study=study)
         assert made.returncode == 0, made.stdout + made.stderr
-        return self.verdict(study)
+        return self.assessment(study)
 
     def edit(self, file: str, old: str, new: str) -> str:
         """Change one place of the copied source; returns the text as it was."""
@@ -85,6 +85,6 @@ def make_small(folder: Path) -> Small:
         shutil.copy(ROOT / "config" / name, folder / "config")
     shutil.copytree(ROOT / "src" / "tread_validate", folder / "src" / "tread_validate")
     shutil.copytree(
-        ROOT / "reference_data", folder / "reference_data", ignore=lambda path, names: {"fe", "ladder"} & set(names)
+        ROOT / "reference_data", folder / "reference_data", ignore=lambda path, names: {"fe", "hierarchy"} & set(names)
     )
     return Small(folder)

@@ -128,7 +128,7 @@ def test_unknown_key_of_the_workflow_is_refused(workspace):
     assert "resluts" in done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("target", ["report", "check", "reference", "mesh-study", "ladder"])
+@pytest.mark.parametrize("target", ["report", "check", "reference", "mesh-study", "hierarchy"])
 def test_make_target_reaches_its_rules(target, root):
     """`make -n` shows the command; the target's rule must come after the options, never as a config entry."""
     shown = subprocess.run(["make", "-n", target], cwd=root, capture_output=True, text=True, timeout=60, check=True)

@@ -47,7 +47,7 @@ RUNS = {
     "calculix": "calculix",
     "abaqus": f"abaqus --settings {SETTINGS}",
 }
-CODE = {part: code_digest(part) for part in ("deck", "compare", "ladder", "report")}
+CODE = {part: code_digest(part) for part in ("deck", "compare", "hierarchy", "report")}
 ENGINE_CODE = {engine: code_digest(part) for engine, part in ENGINE_PARTS.items()}
 REFERENCE_FILES = sorted(
     str(path)

@@ -1,4 +1,4 @@
-# Histories and references -> rows, tables, regressions, verdicts; and the distance to the accepted baseline.
+# Histories and references -> rows, tables, regressions, assessments; and the distance to the accepted baseline.
 rule references:
     input:
         package=f"{REFERENCES}/datapackage.yaml",

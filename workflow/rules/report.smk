@@ -8,8 +8,8 @@ rule report:
         decks=rules.decks.output.mesh,
         graph=rules.rule_graph.output,
         references=REFERENCE_FILES,
-        ladder=sorted(
-            str(path) for path in Path(REFERENCES, "ladder", NAME).glob("*.*")
+        hierarchy=sorted(
+            str(path) for path in Path(REFERENCES, "hierarchy", NAME).glob("*.*")
         ),
     output:
         page=report(
@@ -31,7 +31,7 @@ rule report:
         decks=lambda wildcards: DECKS,
         delta=lambda wildcards, input: f"--delta {input.delta}" if input.delta else "",
         folder=lambda wildcards: REPORTS,
-        code=[CODE["report"], CODE["ladder"]],
+        code=[CODE["report"], CODE["hierarchy"]],
     message:
         "Writing the report"
     shell:

@@ -29,8 +29,8 @@ def main():
     belt, rig = (resolve_creep([study.case(name)])[0] for name in (BELT, RIG))
     parts = {
         "independent springs": lambda: [tv.run(case, "paper") for case in (belt, rig)],
-        "coupled face": lambda: [tv.run(case, "coupled_coarse") for case in (belt, rig)],
-        "face in a host's hands": lambda: tv.TreadBlock(rig, "coupled_coarse").start((0.0, 9e-3), 0.0),
+        "condensed face": lambda: [tv.run(case, "condensed_coarse") for case in (belt, rig)],
+        "face in a host's hands": lambda: tv.TreadBlock(rig, "condensed_coarse").start((0.0, 9e-3), 0.0),
     }
     if shutil.which("gfortran"):
         parts["explicit FE engine"] = lambda: tv.run_fe(small(rig))

@@ -84,7 +84,7 @@ int main(int count, char **arguments)
         modulus += number(at + strlen("\"modulus_Pa\":"));
     double friction = number(AT("friction", "static_coefficient"));
     double duration = 1.02 * number(AT("expected_duration_s"));
-    double first = number(AT("path", "first_touch_arc_m")), speed = number(AT("path", "arc_speed_m_s"));
+    double first = number(AT("path", "first_contact_arc_m")), speed = number(AT("path", "arc_speed_m_s"));
     double road_speed = number(AT("road", "surface_speed_m_s"));
     char *radius_text = AT("road", "radius_m");
     int plane = strncmp(radius_text + strspn(radius_text, " "), "null", 4) == 0;

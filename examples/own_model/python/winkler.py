@@ -27,7 +27,7 @@ def forces(case):
     normal, tangential = np.zeros(time.size), np.zeros(time.size)
     shear, before = np.zeros(COLUMNS), np.full(COLUMNS, np.nan)
     for row, t in enumerate(time):
-        arc = path.first_touch_arc_m + path.arc_speed_m_s * t - offset
+        arc = path.first_contact_arc_m + path.arc_speed_m_s * t - offset
         x, y, slope = (
             np.interp(arc, path.samples.arc_m, values)
             for values in (path.samples.x_m, path.samples.y_m, path.samples.slope_rad)

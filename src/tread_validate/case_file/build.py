@@ -20,7 +20,7 @@ from . import document as doc
 Array = NDArray[np.float64]
 
 ARC_SAMPLES = 801
-"""Samples of the path; the foot of every column is on it from before first contact until after the last."""
+"""Samples of the path; the mount point of every column is on it from before first contact until after the last."""
 MARGIN = 0.1
 """The samples go beyond the contact by this share of its arc at either end."""
 COLUMN_SAMPLES = 51
@@ -179,8 +179,8 @@ def _outline(case: Case, skew: float) -> tuple[tuple[tuple[float, float], ...], 
 
 
 def _path(case: Case, path: BlockPath) -> doc.Path:
-    first = path.first_touch_arc - float(path.columns.arc_offset(path.profile.extent))
-    last = path.first_touch_arc + path.speed * path.contact_duration
+    first = path.first_contact_arc - float(path.columns.arc_offset(path.profile.extent))
+    last = path.first_contact_arc + path.speed * path.contact_duration
     reach = MARGIN * (last - first)
     arc = np.linspace(first - reach, last + reach, ARC_SAMPLES)
     x, y, theta = path.mount(arc)
@@ -190,11 +190,11 @@ def _path(case: Case, path: BlockPath) -> doc.Path:
         source=case.path.source,
         kind=case.path.kind,
         parameters=_parameters(case),
-        first_touch_arc_m=_short(path.first_touch_arc),
+        first_contact_arc_m=_short(path.first_contact_arc),
         arc_speed_m_s=_short(path.speed),
         mount_speed_ratio=_short(path.line.speed_ratio),
         samples=doc.PathSamples(
-            time_s=_numbers((arc - path.first_touch_arc) / path.speed),
+            time_s=_numbers((arc - path.first_contact_arc) / path.speed),
             arc_m=_numbers(arc),
             x_m=_numbers(x),
             y_m=_numbers(y),

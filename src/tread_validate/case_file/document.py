@@ -35,7 +35,7 @@ class Conventions(Frozen):
     clock: str = "t = 0 is the first contact of the stress-free block with the road"
     block: str = "s = 0 is the leading end, which is ahead on the path; s grows towards the trailing end"
     column: str = (
-        "the foot of the column at s is on the mount line at arc first_touch_arc_m + arc_speed_m_s t - "
+        "the mount point of the column at s is on the mount line at arc first_contact_arc_m + arc_speed_m_s t - "
         "arc_offset_m(s), x_offset_m(s) added to x; its stress-free end is at (x + h sin(slope), y - h cos(slope)), "
         "h = height_m(s)"
     )
@@ -116,7 +116,7 @@ class Columns(Frozen):
 
     s_m: Numbers
     arc_offset_m: Numbers
-    x_offset_m: Numbers = Field(description="added to x of the foot; 0 where the block rolls")
+    x_offset_m: Numbers = Field(description="added to x of the mount point; 0 where the block rolls")
     height_m: Numbers
 
 
@@ -149,7 +149,7 @@ class Road(Frozen):
 
 
 class PathSamples(Frozen):
-    """The mount line against the arc; `time_s` is when the leading end's foot is there. All of one length."""
+    """The mount line against the arc; `time_s` is when the leading end's mount point is there. All of one length."""
 
     time_s: Numbers
     arc_m: Numbers
@@ -160,14 +160,14 @@ class PathSamples(Frozen):
 
 
 class Path(Named):
-    """The curve that the foot of the block follows, fixed in the axle frame."""
+    """The curve that the mount point of the block follows, fixed in the axle frame."""
 
     kind: str
     parameters: dict[str, Constant]
-    first_touch_arc_m: FiniteFloat = Field(description="arc of the leading end's foot at t = 0")
+    first_contact_arc_m: FiniteFloat = Field(description="arc of the leading end's mount point at t = 0")
     arc_speed_m_s: Positive = Field(description="rate at which the arc grows")
     mount_speed_ratio: NonNegative = Field(
-        description="speed of the foot along its line over the arc's rate; 0 where the block does not roll"
+        description="speed of the mount point along its line over the arc's rate; 0 where the block does not roll"
     )
     samples: PathSamples
 

@@ -8,6 +8,7 @@ import platform
 import sys
 import tempfile
 import traceback
+import warnings
 from collections.abc import Sequence
 from typing import Annotated, Any
 
@@ -42,9 +43,9 @@ VERBS = {
     "check": "check",
     "check-model": "check_model",
     "accept": "accept",
-    "verdict": "verdict",
+    "assessment": "assessment",
     "badge": "badge",
-    "ladder": "ladder",
+    "hierarchy": "hierarchy",
     "map": "map",
     "fit-prony": "fit_prony",
     "fit-friction": "fit_friction",
@@ -127,7 +128,13 @@ def _main(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with its code."""
+    warnings.showwarning = _warned
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
+
+
+def _warned(message: Warning | str, *_of: Any, **_more: Any) -> None:
+    """Say a warning in one line, without the place in the code that a user cannot change."""
+    typer.echo(f"tread-validate: warning: {one_line(str(message), 200)}", err=True)
 
 
 def run(arguments: Sequence[str]) -> int:

@@ -1,4 +1,4 @@
-"""`tread-validate badge`: the verdict as a small picture."""
+"""`tread-validate badge`: the assessment as a small picture."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def command(
         str, typer.Option("--model", help="how one model does, in place of what moved since the baseline")
     ] = "",
 ) -> None:
-    """Write a badge: whether verdicts flipped since the baseline, or in how many cases a model is good enough.
+    """Write a badge: whether assessments flipped since the baseline, or in how many cases a model is good enough.
 
     Example: tread-validate badge results/liu2010/tables/summary.json -o badge.svg
     """

@@ -25,7 +25,7 @@ def command(
 ) -> None:
     """Compare the tables with the baseline, cell by cell and two-sided; ends with 1 where one fails.
 
-    Flipped verdicts come first, then what they rest on, then what moved, then what follows from that.
+    Flipped assessments come first, then what they depend on, then what moved, then what follows from that.
 
     Example: tread-validate check results/liu2010/tables --junit check.xml --markdown check.md
     """

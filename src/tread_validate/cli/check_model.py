@@ -35,7 +35,7 @@ def command(
         bool, typer.Option("--trust-models", help="run what the study names as command or Python object")
     ] = False,
 ) -> None:
-    """Run only what one model needs, compare it, and say what moved since the baseline: verdicts first.
+    """Run only what one model needs, compare it, and say what moved since the baseline: assessments first.
 
     Ends with 1 where something moved, 3 where nothing could be compared.
 

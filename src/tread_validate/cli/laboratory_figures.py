@@ -148,7 +148,7 @@ def rig(passes: RigPasses, figure: Figure, mark: str = "") -> None:
     ):
         axes.fill_between(passes.time * ms, forces.min(0), forces.max(0), color=color, alpha=0.3, lw=0, label="range")
         axes.plot(passes.time * ms, forces.mean(0), color=color, label=f"mean of {passes.count} passes")
-        axes.set(xlabel="time from first touch, ms", ylabel=f"{name} force, N")
+        axes.set(xlabel="time from first contact, ms", ylabel=f"{name} force, N")
         axes.legend(loc="center" if axes is normal else "upper right")
     normal.set_title(f"{passes.speed_rpm:.1f} rpm, low-pass {passes.cutoff:g} Hz{mark}", loc="left")
     values = passes.normal_force.max(axis=1)

@@ -16,7 +16,7 @@ def command(
     size: Annotated[list[float], number("--size", "element_size_mm", "their element sizes in mm, in the same order")],
     output: Annotated[Path, typer.Option("-o", "--output", help="YAML file to write")] = Path("mesh_error.yaml"),
 ) -> None:
-    """Extrapolate three runs of one case to element size 0, and give the error that remains on the study's mesh.
+    """Extrapolate three runs of one case to element size 0, with the discretisation uncertainty on the study's mesh.
 
     The result holds for runs of the same engine, block, kind of path and mesh, and for no other.
 
@@ -48,7 +48,7 @@ def command(
         raise InputError("--size", sizes, f"one of them the study's, {used:g} mm")
     numbers = mesh_study(sizes, [History.read_csv(file) for file in files], used)
     write_yaml(output, document(case, loaded.model.name, records, sizes, numbers))
-    typer.echo(f"{case.case_id}: relative error that remains at {used:g} mm")
+    typer.echo(f"{case.case_id}: relative discretisation uncertainty at {used:g} mm")
     for name, error in numbers["mesh_error"].items():
         quantity = numbers["quantities"].get(name)
         if quantity is None:

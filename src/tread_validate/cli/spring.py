@@ -28,6 +28,7 @@ def command(
 
     from ..errors import InputError
     from ..files import write_text
+    from ..model_names import current_name
     from ..spring import resolve_creep, run, variants
     from ..spring.summary import summary_csv, summary_row
     from ..study import load_study
@@ -37,6 +38,7 @@ def command(
     if variant == "list":
         typer.echo("\n".join(f"{name}: {summary}" for name, summary in variants().items()))
         return
+    variant = current_name(variant)
     if variant not in variants():
         raise InputError("--variant", variant, f"one of {', '.join(variants())}")
     if bool(case) == every:

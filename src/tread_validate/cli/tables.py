@@ -53,13 +53,13 @@ def command(
         runs = [run for (name, _), run in found.runs.items() if name == source]
         current = sum(run.history is not None for run in runs)
         typer.echo(f"{source}: {current} of {len(runs)} runs can be compared")
-    counts = Counter(row.verdict for row in found.rows)
+    counts = Counter(row.assessment for row in found.rows)
     typer.echo(
         f"{len(found.rows)} rows: {counts['adequate']} good enough, {counts['inadequate']} not, "
         f"{counts['cannot tell']} open"
     )
-    claims = [claim for claim in found.claims if claim.verdict != "cannot tell"]
-    agree = sum(claim.verdict == "agrees" for claim in claims)
+    claims = [claim for claim in found.claims if claim.assessment != "cannot tell"]
+    agree = sum(claim.assessment == "agrees" for claim in claims)
     typer.echo(
         f"{len(found.claims)} published claims: {agree} agree, {len(claims) - agree} disagree, "
         f"{len(found.claims) - len(claims)} open"

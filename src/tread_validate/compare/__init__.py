@@ -4,15 +4,26 @@ from ..callable_module import make_callable
 from .build import build_tables, write_tables
 from .quantities import Scalars, contact_window, scalars
 from .regression.line import regress
+from .scores.assessment import assessment
 from .scores.comparison import compare, empty_rows
 from .scores.ensemble import bias_and_scatter
-from .scores.verdict import verdict
 from .study_comparison import Comparison, compare_study
 from .tables import MetricRow
 
 __all__ = [
-    "Comparison", "MetricRow", "Scalars", "bias_and_scatter", "build_tables", "compare",
-    "compare_study", "contact_window", "empty_rows", "regress", "scalars", "verdict", "write_tables",
+    "Comparison",
+    "MetricRow",
+    "Scalars",
+    "assessment",
+    "bias_and_scatter",
+    "build_tables",
+    "compare",
+    "compare_study",
+    "contact_window",
+    "empty_rows",
+    "regress",
+    "scalars",
+    "write_tables",
 ]  # fmt: skip
 
 make_callable(__name__, "tread_validate.api:compare")

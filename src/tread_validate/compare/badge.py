@@ -1,4 +1,4 @@
-"""The verdict of a study as a badge: SVG drawn here, or JSON in the layout of shields.io's endpoint badge."""
+"""The assessment of a study as a badge: SVG drawn here, or JSON in the layout of shields.io's endpoint badge."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Badge:
 def badge_of(summary: Path, model: str = "") -> Badge:
     """Return the badge of a study from its ``summary.json``; or that of one model of it.
 
-    Of a study: whether verdicts flipped or rows moved since the baseline. Of a model: in how many of its cases the peak
+    Of a study: whether assessments flipped or rows moved since the baseline. Of a model: in how many cases the peak
     normal force is good enough.
 
     Raises
@@ -74,10 +74,10 @@ def badge_of(summary: Path, model: str = "") -> Badge:
     if found is None:
         return Badge("no baseline", GREY)
     if found["flips"]:
-        return Badge(_counted(len(found["flips"]), "verdict") + " flipped", RED)
+        return Badge(_counted(len(found["flips"]), "assessment") + " flipped", RED)
     if found["moved_rows"]:
         return Badge(_counted(found["moved_rows"], "row") + " moved", AMBER)
-    return Badge("no verdict flipped", GREEN)
+    return Badge("no assessment flipped", GREEN)
 
 
 def _of_model(facts: Mapping[str, Any], model: str, summary: Path) -> Badge:

@@ -1,4 +1,4 @@
-"""Several engines' runs of one case, each held against the others."""
+"""Several engines' runs of one case, each compared with the others."""
 
 from __future__ import annotations
 

@@ -15,16 +15,16 @@ from ..yaml_text import read_mapping
 TABLE, RECORD = "sobol.csv", "record.yaml"
 
 
-def input_spreads(ladder_dir: Path, cases: Sequence[Case]) -> dict[str, dict[str, float]]:
+def input_spreads(hierarchy_dir: Path, cases: Sequence[Case]) -> dict[str, dict[str, float]]:
     """Return relative standard deviations by quantity, for ``rig`` and ``belt``; empty where they are not known.
 
-    `ladder_dir` holds the study's sensitivity study.
+    `hierarchy_dir` holds the study's sensitivity study.
 
     The inputs are drawn from their ranges (Saltelli's sample), so that the standard deviation of an output is what
     all of them together make of it. They count for one rig and one belt case and are taken for all of its kind; a table
     that was made under other conditions than the study's says nothing.
     """
-    table, record = ladder_dir / TABLE, ladder_dir / RECORD
+    table, record = hierarchy_dir / TABLE, hierarchy_dir / RECORD
     if not table.is_file() or not record.is_file():
         return {}
     if read_mapping(record).get("study_digest") != conditions_digest(cases):

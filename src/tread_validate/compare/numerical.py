@@ -15,7 +15,7 @@ from .scores.align import align
 from .scores.uncertainty import SAFETY
 
 FINER = 2.0
-COARSER = {"coupled": "coupled_coarse"}
+COARSER = {"condensed": "condensed_coarse"}
 """Variants whose face is divided by its own rule: the coarser sibling on half the division takes the finer's place."""
 
 

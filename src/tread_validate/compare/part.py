@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..errors import InputError
+from ..model_names import current_name
 from ..spring.variants import variants
 from ..study import Case, LoadedStudy
 from .baseline.store import Baseline
@@ -19,7 +20,7 @@ BY_SOURCE = {
     "ensemble": "predicted_source",
     "claims": "source",
 }
-"""Tables of models and the column that names them; with some of the cases only the first can be held against all."""
+"""Tables of models and the column that names them; with some of the cases only the first can be compared with all."""
 
 TESTS = "regression_differences"
 
@@ -88,6 +89,7 @@ def part_of(study: LoadedStudy, names: Sequence[str], case_ids: Sequence[str], a
     chosen: dict[str, list[str]] = {"spring": [], "model": []}
     for name in dict.fromkeys(names):
         prefix, _, bare = name.rpartition(":")
+        bare = bare if bare in own else current_name(bare)
         kind = prefix or ("model" if name in own else "spring")
         if kind not in chosen or bare not in (own if kind == "model" else built_in):
             raise InputError("--model", name, f"one of {', '.join((*own, *built_in))}")

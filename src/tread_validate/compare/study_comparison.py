@@ -29,7 +29,7 @@ from .scores.ensemble import summarise
 from .scores.sensitivity import sensitivity
 from .tables import Coefficient, Difference, Ensemble, MetricRow, Residual, Sensitivity
 
-LADDER = "ladder"
+HIERARCHY = "hierarchy"
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def compare_study(
         runs,
         [*sources, *references],
         rig,
-        input_spreads(reference_dir / LADDER / loaded.model.name, cases),
+        input_spreads(reference_dir / HIERARCHY / loaded.model.name, cases),
         judged,
     )
     published = {item.id: item for item in load_published(reference_dir)}

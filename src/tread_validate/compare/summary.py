@@ -56,7 +56,7 @@ def _models(tables: Path) -> list[dict[str, Any]]:
                 "model": pair[0],
                 "reference": pair[1],
                 "runs": _counts(row.status for row in peaks if row.source == pair[0]),
-                "verdict": _verdict(whole[HEADLINE[0]]) if HEADLINE[0] in whole else "cannot tell",
+                "assessment": _assessment(whole[HEADLINE[0]]) if HEADLINE[0] in whole else "cannot tell",
                 "quantities": [_quantity(whole[key], own) for key in HEADLINE if key in whole],
             }
         )
@@ -64,7 +64,7 @@ def _models(tables: Path) -> list[dict[str, Any]]:
 
 
 def _quantity(row: Ensemble, errors: Sequence[MetricRow]) -> dict[str, Any]:
-    """Return one headline quantity of one model: errors, what is good enough, uncertainty and verdicts."""
+    """Return one headline quantity of one model: errors, what is good enough, uncertainty and assessments."""
     own = [item for item in errors if (item.quantity, item.metric) == (row.quantity, row.metric)]
     worst = next((item for item in own if item.case_id == row.largest_case_id), None)
     found = {
@@ -83,7 +83,7 @@ def _quantity(row: Ensemble, errors: Sequence[MetricRow]) -> dict[str, Any]:
         "adequate": row.adequate,
         "inadequate": row.inadequate,
         "cannot_tell": row.cases - row.adequate - row.inadequate,
-        "verdict": _verdict(row),
+        "assessment": _assessment(row),
         "agrees_within_uncertainty": row.agrees,
         "bias": _printed(row.bias),
         "model_scatter": _printed(row.model_scatter),
@@ -96,7 +96,7 @@ def _quantity(row: Ensemble, errors: Sequence[MetricRow]) -> dict[str, Any]:
     return found
 
 
-def _verdict(row: Ensemble) -> str:
+def _assessment(row: Ensemble) -> str:
     """Say what all cases come to: adequate only where every one is, inadequate where any is not."""
     if row.inadequate:
         return "inadequate"

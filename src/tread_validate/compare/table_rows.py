@@ -71,7 +71,7 @@ def claim_row(claim: Claim) -> ClaimRow:
         computed=computed.value,
         error=claim.error,
         error_type=claim.error_type,
-        verdict=claim.verdict,
+        assessment=claim.assessment,
         status=computed.status,
         note=claim.note,
         assumed="; ".join(computed.assumed),

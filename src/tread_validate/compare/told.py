@@ -25,22 +25,24 @@ class ModelTold:
         Sources; the reference is empty where there was nothing to compare with.
     error : float or None
         Mean of the relative errors' sizes.
-    verdicts : mapping of str to int
-        Cases by verdict.
+    assessments : mapping of str to int
+        Cases by assessment.
     """
 
     model: str
     reference: str = ""
     error: float | None = None
-    verdicts: Mapping[str, int] = field(default_factory=dict)
+    assessments: Mapping[str, int] = field(default_factory=dict)
 
     def __str__(self) -> str:
         """Say it in one line."""
         if not self.reference:
             return f"{self.model}: nothing to compare with"
         error = "no peak N" if self.error is None else f"mean |error| of peak N {100 * self.error:.1f} %"
-        verdicts = ", ".join(f"{verdict} in {count}" for verdict, count in sorted(self.verdicts.items()))
-        return f"{self.model} against {self.reference}: {error}; of {sum(self.verdicts.values())} cases {verdicts}"
+        assessments = ", ".join(f"{assessment} in {count}" for assessment, count in sorted(self.assessments.items()))
+        return (
+            f"{self.model} against {self.reference}: {error}; of {sum(self.assessments.values())} cases {assessments}"
+        )
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class Told:
     compared : bool
         Whether any run had a reference to be compared with.
     moved : bool or None
-        Whether anything moved since the baseline or a verdict flipped; None without a baseline.
+        Whether anything moved since the baseline or an assessment flipped; None without a baseline.
     baseline : str
         The same in words.
     """
@@ -110,7 +112,7 @@ def summed_up(model: str, errors: Sequence[MetricRow]) -> ModelTold:
         ]
         sizes = [abs(row.error) for row in head if row.error is not None]
         mean = sum(sizes) / len(sizes) if sizes else None
-        return ModelTold(model, reference, mean, dict(Counter(str(row.verdict) for row in head)))
+        return ModelTold(model, reference, mean, dict(Counter(str(row.assessment) for row in head)))
     return ModelTold(model)
 
 
@@ -121,7 +123,7 @@ def _baseline(tables: Path, baseline: Path) -> tuple[bool | None, str]:
     same_study(accepted, tables)
     found = check_tables(accepted, tables)
     if found.flips:
-        return True, f"baseline: {len(found.flips)} verdicts flipped, {len(found.failed)} cells moved (make check)"
+        return True, f"baseline: {len(found.flips)} assessments flipped, {len(found.failed)} cells moved (make check)"
     if found.failed:
-        return True, f"baseline: no verdict flipped, {len(found.failed)} cells moved (make check)"
+        return True, f"baseline: no assessment flipped, {len(found.failed)} cells moved (make check)"
     return False, "baseline: not moved"

@@ -1,7 +1,7 @@
 """The numbers of a deck that have a name: what a user changes by hand, and what follows from it.
 
 A change of speed runs the same motion faster or slower: every time is divided and every velocity multiplied by it. A
-change of interference raises the road; the first touch then comes sooner by the time in which the gap under the
+change of interference raises the road; the first contact then comes sooner by the time in which the gap under the
 leading corner closes by as much, taken to second order in time, and the steps move with it.
 """
 
@@ -87,11 +87,11 @@ def _derived(
         Value("stretch", 1.0, "factor on all times", "1./pace"),
         Value("lift", 0.0, "rise of the road over the one written for, mm", f"interference - {depth}"),
         Value(
-            "sooner", 0.0, "first touch before the one written for, s, at its speed",
+            "sooner", 0.0, "first contact before the one written for, s, at its speed",
             f"(sqrt({first}*{first} + 2.*{second}*lift) - {first})/{second}",
         ),
         Value("approach_time", LEAD_IN, "lead-in without contact, s", f"({number(LEAD_IN)} - sooner)*stretch"),
-        Value("pass_time", exact(pass_time), "first touch until clear, s", f"({duration} + 2.*sooner)*stretch"),
+        Value("pass_time", exact(pass_time), "first contact until clear, s", f"({duration} + 2.*sooner)*stretch"),
     ]  # fmt: skip
     if path.road.is_plane:
         values += [
@@ -116,9 +116,9 @@ def _derived(
 
 
 def closing_of_gap(path: Path) -> tuple[float, float]:
-    """Return how fast the gap under the leading corner closes at the first touch (mm/s), and how that slows (mm/s2).
+    """Return how fast the gap under the leading corner closes at the first contact (mm/s), and how that slows (mm/s2).
 
-    Around the first touch the gap is ``-closing t + bend t^2/2``.
+    Around the first contact the gap is ``-closing t + bend t^2/2``.
     """
     t = STEP * np.array([-1.0, 0.0, 1.0])
     before, touch, after = (float(v) for v in -path.indentation(0.0, t) * DECK_LENGTH)

@@ -196,7 +196,7 @@ def _opening(case: Case, form: Form, inputs: Inputs) -> list[str]:
             + (" (free rolling)" if case.free_rolling else ""),
             *(f"ASSUMED INPUT: {item}" for item in case.assumed()),
             "x: direction of travel, y: away from the road, z: across. Road at y = 0 under the axle (x = 0).",
-            "Step approach leads in without contact; step pass begins at the first touch.",
+            "Step approach leads in without contact; step pass begins at the first contact.",
             f"Run: abaqus job={case.case_id} user=vfric.f double=both (on Windows rename vfric.f to vfric.for)",
         )
     ]

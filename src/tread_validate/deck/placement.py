@@ -2,7 +2,7 @@
 
 Every pass is preceded by a lead-in. At its start the block is stress-free and moves as a rigid body; on the belt its
 mount is then bent from the stress-free shape on to the belt by a ramp with continuous acceleration, complete at the
-first touch (t = 0). On the rig the mount is rigid and there is nothing to bend.
+first contact (t = 0). On the rig the mount is rigid and there is nothing to bend.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def place(mesh: BlockMesh, path: Path, curvature: float) -> Placement:
 
 
 def mount_motion(path: Path, s: float, t: FloatArray, curvature: float) -> tuple[FloatArray, ...]:
-    """Return x, y (m) and their rates (m/s) of the mount row at `s` (m) at the times `t` (s, 0 at first touch).
+    """Return x, y (m) and their rates (m/s) of the mount row at `s` (m) at the times `t` (s, 0 at first contact).
 
     From the stress-free block's rigid motion at -LEAD_IN to the belt's path at 0 by the ramp
     ``10 q^3 - 15 q^4 + 6 q^5``, whose first two derivatives vanish at both ends; the path itself from then on.
@@ -144,7 +144,7 @@ def mount_tables(path: Path, rows: FloatArray, pass_time: float, curvature: floa
     tables = []
     for row in rows:
         s = float(row) / DECK_LENGTH
-        touch = path.first_touch_arc - float(path.columns.arc_offset(s))
+        touch = path.first_contact_arc - float(path.columns.arc_offset(s))
         corners = LEAD_IN + (np.array(path.line.corners) - touch) / path.speed
         time = np.union1d(grid, corners[(corners > 0.0) & (corners < end)])
         time = np.unique(np.round(time, 9))

@@ -69,7 +69,7 @@ def steps(
         keyword("NODE OUTPUT"),
         "U,",
         keyword("END STEP"),
-        comment("Pass: from the first touch until the block is clear of the road"),
+        comment("Pass: from the first contact until the block is clear of the road"),
         keyword("STEP", NAME="pass", NLGEOM="YES"),
         keyword("DYNAMIC", "EXPLICIT"),
         f", {form.put(inputs['pass_time'])}",

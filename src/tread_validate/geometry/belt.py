@@ -23,6 +23,6 @@ def belt_path(run: Conditions, line: MountLine, first: float, last: float) -> Pa
         profile=profile,
         speed=run.speed,
         interference=run.interference,
-        first_touch_arc=first,
+        first_contact_arc=first,
         contact_duration=(last - first + profile.extent) / run.speed,
     )

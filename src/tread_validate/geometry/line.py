@@ -1,4 +1,4 @@
-"""Mount lines: the curve that the foot of a column follows in the axle frame, as a function of the arc travelled.
+"""Mount lines: the curve that the mount point of a column follows in the axle frame, against the arc travelled.
 
 Every line gives x, y and theta at an arc; theta is the slope of the line, so that the tangent is
 (cos theta, sin theta) and the column's neutral line points along (sin theta, -cos theta), towards the road.

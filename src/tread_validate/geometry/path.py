@@ -1,4 +1,4 @@
-"""A block pass seen as geometry: where the foot of every column is at any time, where the road is, when they meet."""
+"""A block pass seen as geometry: where each column's mount point is at any time, where the road is, when they meet."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class MountMotion:
 
 @dataclass(frozen=True)
 class Path:
-    """The motion of one block and its road. t = 0 is the first touch of the leading end, s = 0.
+    """The motion of one block and its road. t = 0 is the first contact of the leading end, s = 0.
 
-    The foot of the column at s is at the arc ``first_touch_arc + speed t - columns.arc_offset(s)`` of `line`.
+    The mount point of the column at s is at the arc ``first_contact_arc + speed t - columns.arc_offset(s)`` of `line`.
 
     Attributes
     ----------
@@ -55,10 +55,10 @@ class Path:
         Rate at which the arc grows: surface speed on the rig, belt speed along the belt on the tyre.
     interference : float, m
         Largest compression.
-    first_touch_arc : float, m
+    first_contact_arc : float, m
         Arc at which the leading end's free face meets the road.
     contact_duration : float, s
-        From the first touch until the last column's free face leaves the road. The rubber may let go earlier (it
+        From the first contact until the last column's free face leaves the road. The rubber may let go earlier (it
         relaxes) or slightly later (it is sheared): allow a margin.
     finest_time : float, s
         Tables of the motion need points at least this close; ``inf`` where the arc's own spacing will do.
@@ -70,7 +70,7 @@ class Path:
     profile: WidthProfile
     speed: float
     interference: float
-    first_touch_arc: float
+    first_contact_arc: float
     contact_duration: float
     finest_time: float = math.inf
 
@@ -80,7 +80,7 @@ class Path:
 
     def column_arc(self, s: ArrayLike, t: ArrayLike) -> Array:
         """Return the arc of the columns at `s` (m) at the times `t` (s; before 0 too), broadcast, m."""
-        return self.first_touch_arc + self.speed * np.asarray(t, dtype=np.float64) - self.columns.arc_offset(s)
+        return self.first_contact_arc + self.speed * np.asarray(t, dtype=np.float64) - self.columns.arc_offset(s)
 
     def at(self, s: ArrayLike, t: ArrayLike) -> MountMotion:
         """Return place and motion of the mount points of the columns at `s` (m) at the times `t` (s), broadcast."""
@@ -98,11 +98,11 @@ class Path:
         return x + height * np.sin(theta), y - height * np.cos(theta)
 
     def block_curvature(self) -> float:
-        """Return the curvature (1/m) of the mount of a stress-free conforming block: that of its path at first touch.
+        """Return the curvature (1/m) of the mount of a stress-free conforming block: that of its path at first contact.
 
         The mean over the block's length, for a trace curves by a little more here and a little less there.
         """
-        arcs = self.first_touch_arc - self.columns.arc_offset(np.linspace(0.0, self.columns.extent, 101))
+        arcs = self.first_contact_arc - self.columns.arc_offset(np.linspace(0.0, self.columns.extent, 101))
         curvature = self.line.curvature(arcs)
         return float(curvature[0]) if np.ptp(curvature) == 0.0 else float(np.mean(curvature))
 

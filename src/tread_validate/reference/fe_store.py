@@ -40,7 +40,7 @@ class Reference:
         What was asked for.
     status : str
         ``current``: of the problem that today's deck poses; ``other_code``: the same, made before the engine's code
-        changed; ``stale``: of another problem, or not to be held against one; ``missing``: no run; ``corrupt``:
+        changed; ``stale``: of another problem, or not to be compared with one; ``missing``: no run; ``corrupt``:
         unreadable, without its record, or not what its record describes.
     reason : str
         Why it is not current, in one line; empty where it is.

@@ -49,7 +49,7 @@ class MeshErrors:
         return next((study for study in self.studies if study["applies_to"] == wanted), None)
 
     def error(self, case: Case, engine: str) -> dict[str, float] | None:
-        """Return the relative error that remains, by quantity; None where no mesh study applies."""
+        """Return the relative discretisation uncertainty, by quantity; None where no mesh study applies."""
         study = self.of(case, engine)
         if study is None:
             return None

@@ -20,7 +20,7 @@ CUTOFF = 1000.0  # Hz
 ORDER = 4
 MOST_FOR_SHAPE = 400  # revolutions that tell where the contact is
 CONTACT = 0.05  # of the peak: above it the block is in contact, when the baseline is looked for
-ONSET = 0.03, 0.3  # of the mean peak: the part of the rise that first touch is extrapolated from
+ONSET = 0.03, 0.3  # of the mean peak: the part of the rise that first contact is extrapolated from
 NOISE_LIMIT = 5.0  # standard deviations of the free running
 MARGIN = 0.5  # of the contact's duration, kept before and after it
 LARGEST_SPEED_CHANGE = 0.2
@@ -44,7 +44,7 @@ class RigPasses:
     Attributes
     ----------
     time : (n,) array, s
-        0 at first touch, extrapolated from the rise of the mean normal force.
+        0 at first contact, extrapolated from the rise of the mean normal force.
     normal_force, tangential_force : (passes, n) arrays, N
         Filtered, drift removed; tangential as recorded in sign.
     peak_normal_force, largest_tangential_force, least_tangential_force : Spread

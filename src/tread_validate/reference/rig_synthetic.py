@@ -28,7 +28,7 @@ class SyntheticRig:
     ----------
     record : RigRecord
     time, normal_force, tangential_force : (n,) arrays
-        Of the mean pass, exact, from first touch (s, N).
+        Of the mean pass, exact, from first contact (s, N).
     peaks : (passes,) array, N
         Exact peak normal force of each pass.
     """
@@ -100,8 +100,8 @@ def _tangential(distance: Array, interference: float, speed: float) -> Array:
     """Return a force that is positive while the block loads and, a little less, negative while it unloads."""
     step = 1e-5
     slope = (exact_force(distance + step, interference) - exact_force(distance - step, interference)) / (2 * step)
-    lag = 0.04 * exact_force(distance, interference)
-    return np.asarray(1.6e-3 * slope + lag, dtype=np.float64)
+    deflection = 0.04 * exact_force(distance, interference)
+    return np.asarray(1.6e-3 * slope + deflection, dtype=np.float64)
 
 
 def record_csv(synthetic: SyntheticRig) -> str:

@@ -1,4 +1,4 @@
-"""What moved since the accepted baseline: flipped verdicts first, then what they rest on, then what moved."""
+"""What moved since the accepted baseline: flipped assessments first, then what they depend on, then what moved."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from ..compare.tables import ClaimRow
 from . import wording
 from .content import Cell, Column, Row, Table
 from .marks import Marks
-from .results import value_cell, verdict_cell
+from .results import assessment_cell, value_cell
 from .tables import Tables
 
 NOTHING = 1e-4  # less than the last digit of any published number, in its unit
@@ -24,7 +24,7 @@ CLAIM_GROUPS = {
 
 
 def claims_table(tables: Tables, marks: Marks) -> Table:
-    """Return every published statement once, with what each source gives for it and the verdict under the value."""
+    """Return every published statement once, with what each source gives for it and the assessment under the value."""
     sources = _model_sources(tables.claims)
     order = {kind: rank for rank, kind in enumerate(CLAIM_GROUPS)}
     found: dict[tuple[str, str], list[ClaimRow]] = {}
@@ -80,13 +80,13 @@ def _line(kind: str, members: list[ClaimRow], sources: list[str], marks: Marks) 
 
 
 def _found(row: ClaimRow | None) -> Cell:
-    """Return a source's value with its verdict, error and note; nothing where the source has no part in it."""
+    """Return a source's value with its assessment, error and note; nothing where the source has no part in it."""
     if row is None:
         return Cell("–", tone="mute")
-    verdict = verdict_cell(row.verdict, row.note, row.status)
-    parts = [verdict.text, _error(row.error, row.error_type) if row.error is not None else "", verdict.note]
+    assessment = assessment_cell(row.assessment, row.note, row.status)
+    parts = [assessment.text, _error(row.error, row.error_type) if row.error is not None else "", assessment.note]
     note = "; ".join(part for part in parts if part)
-    return Cell(_computed(row.computed), sort=row.computed, tone=verdict.tone, note=note)
+    return Cell(_computed(row.computed), sort=row.computed, tone=assessment.tone, note=note)
 
 
 def _other(members: list[ClaimRow]) -> Cell:

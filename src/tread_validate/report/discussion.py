@@ -47,7 +47,7 @@ def discussion_section(tables: Tables, marks: Marks) -> Section:
     items: list[Paragraph | Table] = [_disagreements(failed, marks)]
     if not failed:
         items = [Paragraph("No model is beyond its tolerance in any headline quantity.", "good")]
-    wrong = [row for row in tables.claims if row.kind == "model" and row.verdict == "disagrees"]
+    wrong = [row for row in tables.claims if row.kind == "model" and row.assessment == "disagrees"]
     if wrong:
         items.append(_statements(wrong, marks))
     return Section("discussion", "What disagrees, and why", tuple(items))

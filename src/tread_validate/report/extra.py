@@ -38,8 +38,8 @@ TABLES = (
 )
 
 
-def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: Marks) -> Section | None:
-    """Return the model ladder's figures and tables as it wrote them; None where it has not run on this study."""
+def hierarchy_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: Marks) -> Section | None:
+    """Return the model hierarchy's figures and tables as it wrote them; None where it has not run on this study."""
     if folder is None or not folder.is_dir():
         return None
     record = _record(folder / "record.yaml")
@@ -50,19 +50,19 @@ def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: 
     ]
     if record["study_digest"] != conditions_digest(study.cases()):
         items.append(Paragraph("Stale: made when the study had other conditions. Make the hierarchy anew."))
-    if record.get("code") != code_digest("ladder"):
-        items.append(Paragraph("Made by other code than today's. Make the hierarchy anew: make ladder."))
+    if record.get("code") != code_digest("hierarchy"):
+        items.append(Paragraph("Made by other code than today's. Make the hierarchy anew: make hierarchy."))
     tables = {name: read_table(folder / f"{name}.csv", ()) for name, _ in TABLES if (folder / f"{name}.csv").is_file()}
     figures = []
     for name, title, caption in FIGURES:
         source = folder / "figures" / f"{name}.svg"
         if source.is_file():
             drawn.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, drawn / f"ladder-{name}.svg")
+            shutil.copyfile(source, drawn / f"hierarchy-{name}.svg")
             table = tables.get(name)
             own = marks.of_column(table["assumed"]) if table is not None and "assumed" in table else ()
             figures.append(
-                Figure(f"ladder-{name}", title, caption, drawn / f"ladder-{name}.svg", own, wide=name == "sobol")
+                Figure(f"hierarchy-{name}", title, caption, drawn / f"hierarchy-{name}.svg", own, wide=name == "sobol")
             )
     if figures:
         items.append(Figures(tuple(figures)))
@@ -70,8 +70,8 @@ def ladder_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: 
         items.append(_pareto(tables["pareto"], marks))
     for name, title in TABLES:
         if name in tables:
-            items.append(plain_table(f"ladder-{name}", title, tables[name], marks, folded=True))
-    return Section("ladder", "The model hierarchy", tuple(items)) if tables else None
+            items.append(plain_table(f"hierarchy-{name}", title, tables[name], marks, folded=True))
+    return Section("hierarchy", "The model hierarchy", tuple(items)) if tables else None
 
 
 def _record(path: Path) -> dict[str, Any]:
@@ -82,7 +82,7 @@ def _record(path: Path) -> dict[str, Any]:
 
 
 def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
-    """Return what a reader asks first of each rung: how long it takes, how wrong it is, whether that was the target."""
+    """Return what a reader asks first of each level: how long it takes, how wrong it is, if that was the target."""
     rows = []
     for record in records(frame):
         seconds, mean, worst = (
@@ -105,7 +105,7 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
             Cell(f"{wording.digits(normal, 2)} / {wording.digits(tangential, 2)}", sort=normal),
             Cell(outcome[0], tone=outcome[1], note=words),  # type: ignore[arg-type]
         )
-        rows.append(Row(cells, marks.of(record["assumed"]), group=str(record["rung"]).replace("_", " ")))
+        rows.append(Row(cells, marks.of(record["assumed"]), group=str(record["level"]).replace("_", " ")))
     columns = (
         Column("Cases"),
         Column("Compared"),
@@ -117,7 +117,7 @@ def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
         Column("Target", wide=True),
     )
     return Table(
-        "ladder-rungs",
+        "hierarchy-levels",
         "The model levels",
         columns,
         tuple(rows),

@@ -10,7 +10,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..files import read_text, write_text
 
-VERDICT = "verdict.json"
+ASSESSMENT = "assessment.json"
 HEAD = """<!doctype html>
 <html lang="en">
 <head>
@@ -30,11 +30,11 @@ ul { margin: 0; padding-left: 1.2rem; }
 
 
 def write_landing(reports: Path, own: Path, title: str, lines: Sequence[str]) -> Path:
-    """Keep a study's verdict beside its report and list all studies in ``index.html`` of the reports' folder."""
+    """Keep a study's assessment beside its report and list all studies in ``index.html`` of the reports' folder."""
     facts = {"study": own.name, "title": title, "lines": list(lines)}
-    write_text(own / VERDICT, json.dumps(facts, indent=2, ensure_ascii=False) + "\n")
+    write_text(own / ASSESSMENT, json.dumps(facts, indent=2, ensure_ascii=False) + "\n")
     parts = [HEAD]
-    for file in sorted(reports.glob(f"*/{VERDICT}")):
+    for file in sorted(reports.glob(f"*/{ASSESSMENT}")):
         name = file.parent.name
         if not (file.parent / "index.html").is_file():
             continue
@@ -58,5 +58,5 @@ def _read(file: Path) -> dict[str, object]:
     try:
         data = json.loads(read_text(file))
     except (ValueError, InputError):
-        return {"lines": ["its verdict cannot be read: make its report anew"]}
+        return {"lines": ["its assessment cannot be read: make its report anew"]}
     return data if isinstance(data, dict) else {}

@@ -21,7 +21,7 @@ OPEN = 0.1  # share of cases that may be `cannot tell` where the assessment says
 COLUMNS = (
     Column("Model", wide=True),
     Column("Peak N error", "mean; worst", numeric=True),
-    Column("Peak T error", "mean; worst", numeric=True),
+    Column("Peak longitudinal force error", "mean; worst", numeric=True),
     Column("ISO/TS 18571", "mean R of N; of T"),
     Column("Assessment", "tolerance; uncertainty U", wide=True),
     Column("Cost", "of one pass", numeric=True),
@@ -35,15 +35,15 @@ class Costs:
     seconds: Mapping[str, float]
 
     @classmethod
-    def read(cls, ladder: Path | None, models: Path, study: LoadedStudy) -> Costs:
+    def read(cls, hierarchy: Path | None, models: Path, study: LoadedStudy) -> Costs:
         """Read them from the model hierarchy's tables and from the summaries of the study's own models."""
         found: dict[str, float] = {}
-        file = None if ladder is None else ladder / "pareto.csv"
+        file = None if hierarchy is None else hierarchy / "pareto.csv"
         if file is not None and file.is_file():
-            for row in records(read_table(file, ("rung", "group", "seconds_per_pass"))):
+            for row in records(read_table(file, ("level", "group", "seconds_per_pass"))):
                 seconds = number(row["seconds_per_pass"])
                 if row["group"] == "all" and seconds is not None:
-                    found[f"spring:{row['rung']}"] = seconds
+                    found[f"spring:{row['level']}"] = seconds
         for name in study.model.models:
             file = models / name / "summary.csv"
             if file.is_file():

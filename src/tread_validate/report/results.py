@@ -15,13 +15,13 @@ def value_cell(value: float | None, text: str, note: str = "", tone: Tone = "") 
     return Cell(text, sort=value, note=note, tone=tone)
 
 
-def verdict_cell(verdict: str, note: str = "", status: str = "current") -> Cell:
-    """Return a verdict with its symbol and reason."""
+def assessment_cell(assessment: str, note: str = "", status: str = "current") -> Cell:
+    """Return an assessment with its symbol and reason."""
     if status == "not_compared":
         return Cell("not compared", tone="mute", note=note)
     if status != "current":
         note = "; ".join(part for part in (wording.status(status), note) if part)
-    return Cell(wording.verdict(verdict), tone=wording.TONES.get(verdict, "mute"), note=note)
+    return Cell(wording.assessment(assessment), tone=wording.TONES.get(assessment, "mute"), note=note)
 
 
 def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:

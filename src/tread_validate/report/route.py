@@ -8,31 +8,31 @@ from ..material.compound import compound_route
 from ..material.worth import worths
 from ..study import LoadedStudy, MeasuredBelt
 from .content import Cell, Column, Item, Paragraph, Row, Table
-from .figures import Studio, figure_items
+from .figures import Drawings, figure_items
 from .figures import route as drawings
 
 
-def worth_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
+def worth_items(study: LoadedStudy, draw: Drawings) -> tuple[Item, ...]:
     """Return for each compound what its series is worth for the runs of the study."""
     found = []
     for worth in worths(study.cases()):
         lines = [line.removeprefix("warning: ").removeprefix(f"compound {worth.name}: ") for line in worth.lines()]
         doubtful = any(line.startswith("warning") for line in worth.lines())
         text = f"Compound {worth.name.replace('_', ' ')}: " + "; ".join(lines) + "."
-        found.append(Paragraph(text, "warn" if doubtful else "", studio.input_marks(f"compound {worth.name}")))
+        found.append(Paragraph(text, "warn" if doubtful else "", draw.input_marks(f"compound {worth.name}")))
     return tuple(found)
 
 
-def route_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
+def route_items(study: LoadedStudy, draw: Drawings) -> tuple[Item, ...]:
     """Return figures and quality of every compound made from sweeps and every belt path made from ridge heights."""
     found: list[Item] = []
     for name, compound in study.compounds().items():
         route = compound_route(compound, study.root)
         if route is None:
             continue
-        marks = studio.input_marks(f"compound {name}")
+        marks = draw.input_marks(f"compound {name}")
         steps = (drawings.sweeps, drawings.master, drawings.residuals)
-        found += figure_items(tuple(step(studio.folder, name, route, marks) for step in steps))
+        found += figure_items(tuple(step(draw.folder, name, route, marks) for step in steps))
         rows = tuple(
             Row((Cell(key.replace("_", " ")), Cell(str(value))), marks) for key, value in route.quality().items()
         )
@@ -43,12 +43,12 @@ def route_items(study: LoadedStudy, studio: Studio) -> tuple[Item, ...]:
     for name, path in study.model.paths.items():
         if not isinstance(path, MeasuredBelt) or not path.file.lower().endswith(".csv"):
             continue
-        marks = studio.input_marks(f"path {name}")
+        marks = draw.input_marks(f"path {name}")
         traces = level(read_ridges(study.root / path.file))
         used = next(trace for trace in traces if trace.name == path.trace)
         drawn = (
-            drawings.ridges(studio.folder, name, traces, marks),
-            drawings.ridge_curvature(studio.folder, name, used, marks),
+            drawings.ridges(draw.folder, name, traces, marks),
+            drawings.ridge_curvature(draw.folder, name, used, marks),
         )
         found += figure_items(drawn)
     return tuple(found)

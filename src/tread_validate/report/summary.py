@@ -121,4 +121,4 @@ def _inputs(tables: Tables, marks: Marks) -> Fact:
 
 def count_claims(rows: Iterable[ClaimRow]) -> Counter[str]:
     """Count how published statements came out."""
-    return Counter(row.verdict for row in rows)
+    return Counter(row.assessment for row in rows)

@@ -125,9 +125,9 @@ def _case_error(row: MetricRow, why: str, alike: set[str]) -> dict[str, str]:
         "a": wording.digits(row.reference, 4),
         "b": wording.digits(row.predicted, 4),
         "e": wording.error(row.error, row.error_type, metric=row.metric),
-        "v": "–" if open_ else wording.verdict(row.verdict),
+        "v": "–" if open_ else wording.assessment(row.assessment),
         "u": "" if open_ or row.uncertainty is None else judged(row),
-        "tone": "" if open_ else wording.TONES.get(row.verdict, ""),
+        "tone": "" if open_ else wording.TONES.get(row.assessment, ""),
         "note": "; ".join(part for part in row.note.split("; ") if part not in alike),
         "why": why,
     }

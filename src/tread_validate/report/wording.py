@@ -1,4 +1,4 @@
-"""The report's words for table keys: sources, quantities, metrics, verdicts, and numbers with their units."""
+"""The report's words for table keys: sources, quantities, metrics, assessments, and numbers with their units."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ TONES: dict[str, Tone] = {
 }  # fmt: skip
 NBSP = "\u00a0"
 SYMBOLS = {"agrees": "✓", "disagrees": "✗", "cannot tell": "?", "adequate": "✓", "inadequate": "✗"}
-VERDICTS = {"adequate": "good enough", "inadequate": "not good enough"}
+ASSESSMENTS = {"adequate": "good enough", "inadequate": "not good enough"}
 STATUSES = {
     "current": "current",
     "missing": "without a run",
@@ -53,8 +53,8 @@ def source(key: str) -> str:
         "fe:abaqus": "FE (ABAQUS)",
         "fe:calculix": "FE (CalculiX)",
         "spring:paper": "Springs of the paper",
-        "spring:bonded": "Shape-factor springs",
-        "spring:coupled": "Condensed-FE model",
+        "spring:shape_factor": "Shape-factor springs",
+        "spring:condensed": "Condensed-FE model",
         "study": "Study",
     }
     if key in known:
@@ -77,9 +77,9 @@ def group(key: str) -> str:
     return GROUPS.get(key, key.replace("_", " "))
 
 
-def verdict(key: str) -> str:
-    """Write a verdict with its symbol, so that colour is never its only carrier."""
-    return f"{SYMBOLS[key]} {VERDICTS.get(key, key)}" if key in SYMBOLS else key
+def assessment(key: str) -> str:
+    """Write an assessment with its symbol, so that colour is never its only carrier."""
+    return f"{SYMBOLS[key]} {ASSESSMENTS.get(key, key)}" if key in SYMBOLS else key
 
 
 def status(key: str) -> str:

@@ -15,7 +15,7 @@ from ..study import Case
 from ..units import MM
 from .assembly import add_element, block_forces
 from .element import COLUMNS, run_element
-from .inputs import Grip, Memory, Motion, Rubber
+from .inputs import KernelLaw, Memory, Motion, Rubber
 from .memory import TICKS, memory_of
 from .rubber import law_of, series_of
 
@@ -42,7 +42,7 @@ class BlockPass:
     case_id : str
     path : Path
     rubber : Rubber
-    grip : Grip
+    law : KernelLaw
     step : float, s
         Node step: an element's transit time over a whole number.
     """
@@ -50,7 +50,7 @@ class BlockPass:
     case_id: str
     path: Path
     rubber: Rubber
-    grip: Grip
+    law: KernelLaw
     step: float
     element_length: float
 
@@ -89,12 +89,12 @@ class BlockPass:
     def element(self, creep_ratio: float, s: float = 0.0) -> tuple[Array, float]:
         """Return the record ((nodes, 16), see `element`) of the element at `s` (m) and its time of release (s).
 
-        With equal columns the clock starts at the element's own first touch; else at the block's. Raises `EngineError`
+        With equal columns the clock starts at the element's own first contact, else the block's. Raises `EngineError`
         for an element that never lets go.
         """
         columns, path = self.path.columns, self.path
         height = float(columns.column_height(s))
-        arc, first_tick = path.first_touch_arc, 0
+        arc, first_tick = path.first_contact_arc, 0
         if not columns.are_equal:
             arc -= float(columns.arc_offset(s))
             touch = self._touch_time(s)
@@ -107,7 +107,7 @@ class BlockPass:
         release = run_element(
             self.motion(creep_ratio),
             self.rubber,
-            self.grip,
+            self.law,
             self.memory,
             height,
             arc,
@@ -179,7 +179,7 @@ def prepare(case: Case, mass_factor: float = 1.0) -> BlockPass:
         0.5 / (1.0 + case.compound.poissons_ratio),
         mass_factor * 0.5 * case.compound.density_kg_m3 * case.height,
     )
-    grip = Grip(friction.static_coefficient, *friction.kernel_arguments)
+    law = KernelLaw(friction.static_coefficient, *friction.kernel_arguments)
     element_length = case.spring.element_length_mm * MM
     if element_length > path.profile.extent:
         raise InputError(
@@ -187,7 +187,7 @@ def prepare(case: Case, mass_factor: float = 1.0) -> BlockPass:
             case.spring.element_length_mm,
             f"at most the block, {path.profile.extent / MM:g} mm",
         )
-    return BlockPass(case.case_id, path, rubber, grip, _step(case, path, element_length), element_length)
+    return BlockPass(case.case_id, path, rubber, law, _step(case, path, element_length), element_length)
 
 
 def _step(case: Case, path: Path, element_length: float) -> float:

@@ -33,7 +33,7 @@ def cautions(case: Case, variant: str) -> tuple[str, ...]:
         found.append(f"interference {100 * depth:.0f} % of the height: small strains end at {100 * DEEP:.0f} %")
     if nu > INCOMPRESSIBLE:
         found.append(f"Poisson's ratio {nu:g}: compared with FE up to {INCOMPRESSIBLE:g}")
-    bend = abs(float(path.line.curvature(path.first_touch_arc)))
+    bend = abs(float(path.line.curvature(path.first_contact_arc)))
     if bend * case.height * SHARP > 1.0:
         found.append(f"path radius {1.0 / bend / MM:.3g} mm below {SHARP:g} times the block's height")
     instant = series.instantaneous_modulus / (2.0 * (1.0 + nu))

@@ -23,7 +23,7 @@ class ElementHistory:
     Attributes
     ----------
     time : s
-        From the block's first touch.
+        From the block's first contact.
     radial_length, longitudinal_length : m
         delta and lambda; nan while the element does not touch.
     radial_force, longitudinal_force : N
@@ -75,7 +75,7 @@ def element_history(case: Case, s: float = 0.0, mass_factor: float = 1.0) -> Ele
     return ElementHistory(
         time=np.asarray(shift + block_pass.step * np.arange(record.shape[0]), dtype=np.float64),
         radial_length=np.where(touches, record[:, columns.DELTA], np.nan),
-        longitudinal_length=np.where(touches, record[:, columns.LAG], np.nan),
+        longitudinal_length=np.where(touches, record[:, columns.DEFLECTION], np.nan),
         radial_force=area * record[:, columns.PRESSURE],
         longitudinal_force=area * record[:, columns.SHEAR],
         friction_force=area * record[:, columns.FRICTION],
@@ -86,7 +86,7 @@ def element_history(case: Case, s: float = 0.0, mass_factor: float = 1.0) -> Ele
 
 
 def face_at(case: Case, time: float, mass_factor: float = 1.0) -> FaceAtInstant:
-    """Return pressure and shear along the block at one time (s from first touch) of a case of variant ``paper``."""
+    """Return pressure and shear along the block at one time (s from first contact) of a case of variant ``paper``."""
     block_pass, creep_ratio = _ready(case, mass_factor)
     _, middles = block_pass.elements()
     values = np.zeros((middles.size, columns.COLUMNS))

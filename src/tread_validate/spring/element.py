@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels import kernel
-from .inputs import Grip, Memory, Motion, Rubber
-from .kinematics import foot, sliding, sticking
+from .inputs import KernelLaw, Memory, Motion, Rubber
+from .kinematics import mount_point, sliding, sticking
 from .memory import LEVELS, STAGE, TICKS
 from .slip import kinetic, slip_stage
 
@@ -26,7 +26,7 @@ PRESSURE, SHEAR, TOUCHING, SLIPPING = 0, 1, 2, 3
 """Pa, Pa (positive like lambda), 0 or 1, 0 or 1."""
 INTEGRALS = 4
 """Columns 4..7: time integrals of columns 0..3; 8..11: integrals of those."""
-DELTA, LAG, SLIP_SPEED, FRICTION = 12, 13, 14, 15
+DELTA, DEFLECTION, SLIP_SPEED, FRICTION = 12, 13, 14, 15
 """Radial and longitudinal length (m), slip speed (m/s, >= 0), traction of the road on the
 rubber (Pa, positive like lambda; with slip it differs from the spring's by the lumped mass's inertia)."""
 COLUMNS = 16
@@ -76,15 +76,15 @@ def _accumulate(integrals: Array, dt: float, p0: float, q0: float, p1: float, q1
 def _stick_acceleration(motion: Motion, arc: float, c: float, dt: float) -> float:
     """Return the acceleration of lambda while C sticks at `c` (m/s2), from the next `dt` seconds."""
     along = motion.road_speed * (motion.road_curvature if motion.road_curvature > 0.0 else 1.0)
-    now = sticking(motion, foot(motion, arc), c)[3]
-    return (sticking(motion, foot(motion, arc + motion.speed * dt), c + along * dt)[3] - now) / dt
+    now = sticking(motion, mount_point(motion, arc), c)[3]
+    return (sticking(motion, mount_point(motion, arc + motion.speed * dt), c + along * dt)[3] - now) / dt
 
 
 @kernel()
 def run_element(
     motion: Motion,
     rubber: Rubber,
-    grip: Grip,
+    law: KernelLaw,
     memory: Memory,
     height: float,
     arc_at_zero: float,
@@ -100,9 +100,9 @@ def run_element(
     height : float, m
         Stress-free height of the element.
     arc_at_zero : float, m
-        Arc of the element's foot at t = 0.
+        Arc of the element's mount point at t = 0.
     first_tick : int
-        First touch, in node steps / 4096 from t = 0.
+        First contact, in node steps / 4096 from t = 0.
     corners : (n,) array
         Ticks, in order, that no sub-step may straddle (the path's curvature jumps there).
     tolerance : float, m
@@ -126,9 +126,9 @@ def run_element(
     integrals = np.zeros(8)
 
     tick = first_tick
-    at = foot(motion, arc_at_zero + motion.speed * tick * dt_tick)
-    delta, c, lag_rate, _slope, _drift = sliding(motion, at, 0.0)
-    _d, lag, delta_rate, lag_rate = sticking(motion, at, c)
+    at = mount_point(motion, arc_at_zero + motion.speed * tick * dt_tick)
+    delta, c, deflection_rate, _slope, _drift = sliding(motion, at, 0.0)
+    _d, deflection, delta_rate, deflection_rate = sticking(motion, at, c)
     u, u_rate = height - delta, -delta_rate
     total = 0.0
     for i in range(n):  # what the rounding of the first tick leaves
@@ -155,17 +155,22 @@ def run_element(
         ticks = TICKS >> level
         dt = ticks * dt_tick
         arc = arc_at_zero + motion.speed * (tick + ticks) * dt_tick
-        at = foot(motion, arc)
+        at = mount_point(motion, arc)
         weights = memory.weights[level]
         last_chance = level == LEVELS - 1
         was_slipping = 1.0 if mode == SLIP else 0.0
         if mode == STICK:
             c_new = c + motion.road_speed * (motion.road_curvature if motion.road_curvature > 0.0 else 1.0) * dt
-            delta_new, lag_new, delta_rate, lag_rate_new = sticking(motion, at, c_new)
+            delta_new, deflection_new, delta_rate, deflection_rate_new = sticking(motion, at, c_new)
             u_new, u_rate_new = height - delta_new, -delta_rate
             p_new = modulus * u_new + _remember(weights[0], radial, u_rate, u_rate_new, u_new - u, fresh_radial)
-            q_new = modulus * lag_new + _remember(
-                weights[0], longitudinal, lag_rate, lag_rate_new, lag_new - lag, fresh_longitudinal
+            q_new = modulus * deflection_new + _remember(
+                weights[0],
+                longitudinal,
+                deflection_rate,
+                deflection_rate_new,
+                deflection_new - deflection,
+                fresh_longitudinal,
             )
             p_new /= height
             q_new *= shear_ratio / height
@@ -173,10 +178,10 @@ def run_element(
             released = not p_new > 0.0
             breaks = False
             push = q_new
-            if not released and abs(q_new) > grip.static_coefficient * p_new:
+            if not released and abs(q_new) > law.static_coefficient * p_new:
                 # what friction must give for C to stay on the road; no slip starts that the law in slip would stop
                 push = q_new + mass * _stick_acceleration(motion, arc, c_new, dt_tick)
-                breaks = abs(push) > kinetic(grip, p_new, 0.0) * p_new
+                breaks = abs(push) > kinetic(law, p_new, 0.0) * p_new
             if (released or breaks) and not last_chance and events < MOST_EVENTS:
                 level += 1
                 continue
@@ -188,38 +193,49 @@ def run_element(
             grows = True
         else:
             half = STAGE * dt
-            at_stage = foot(motion, arc - motion.speed * (1.0 - STAGE) * dt)
+            at_stage = mount_point(motion, arc - motion.speed * (1.0 - STAGE) * dt)
             form_r[0], form_l[0] = _fading(weights[1], radial), _fading(weights[1], longitudinal)
             sums = memory.sums[level, 1]
             form_r[0] += sums[0] * u_rate
-            form_l[0] += sums[0] * lag_rate
+            form_l[0] += sums[0] * deflection_rate
             form_r[1], form_r[2], form_r[3] = sums[1], sums[2], u
-            form_l[1], form_l[2], form_l[3] = sums[1], sums[2], lag
+            form_l[1], form_l[2], form_l[3] = sums[1], sums[2], deflection
             first = slip_stage(
-                motion, rubber, grip, at_stage, height, direction, half, lag, mass * lag_rate, lag_rate, form_r, form_l
+                motion,
+                rubber,
+                law,
+                at_stage,
+                height,
+                direction,
+                half,
+                deflection,
+                mass * deflection_rate,
+                deflection_rate,
+                form_r,
+                form_l,
             )
             form_r[0], form_l[0] = _fading(weights[0], radial), _fading(weights[0], longitudinal)
             sums = memory.sums[level, 0]
             form_r[0] += sums[0] * u_rate
-            form_l[0] += sums[0] * lag_rate
+            form_l[0] += sums[0] * deflection_rate
             form_r[1], form_r[2] = sums[1], sums[2]
             form_l[1], form_l[2] = sums[1], sums[2]
             explicit = (1.0 - STAGE) * dt
             second = slip_stage(
                 motion,
                 rubber,
-                grip,
+                law,
                 at,
                 height,
                 direction,
                 half,
-                lag + explicit * first[1],
-                mass * lag_rate + explicit * (mass * (first[1] - lag_rate) / half),
+                deflection + explicit * first[1],
+                mass * deflection_rate + explicit * (mass * (first[1] - deflection_rate) / half),
                 first[1],
                 form_r,
                 form_l,
             )
-            _ok, lag_rate_new, lag_new, p_new, q_new, slip_new, u_rate_new, delta_new, _push = second
+            _ok, deflection_rate_new, deflection_new, p_new, q_new, slip_new, u_rate_new, delta_new, _push = second
             u_new = height - delta_new
             error = half * abs(second[1] - first[1])
             released = not p_new > 0.0
@@ -229,21 +245,28 @@ def run_element(
                 level += 1
                 continue
             _remember(weights[0], radial, u_rate, u_rate_new, u_new - u, fresh_radial)
-            _remember(weights[0], longitudinal, lag_rate, lag_rate_new, lag_new - lag, fresh_longitudinal)
-            c_new = sliding(motion, at, lag_new)[1]
+            _remember(
+                weights[0],
+                longitudinal,
+                deflection_rate,
+                deflection_rate_new,
+                deflection_new - deflection,
+                fresh_longitudinal,
+            )
+            c_new = sliding(motion, at, deflection_new)[1]
             if released:
                 mode = GONE
             elif ends:
                 events += 1
                 past_corner = corner < corners.size and tick + ticks >= corners[corner]
                 push = q_new + mass * _stick_acceleration(motion, arc, c_new, dt_tick)
-                held = abs(q_new) <= grip.static_coefficient * p_new or abs(push) <= kinetic(grip, p_new, 0.0) * p_new
+                held = abs(q_new) <= law.static_coefficient * p_new or abs(push) <= kinetic(law, p_new, 0.0) * p_new
                 if past_corner and abs(slip_new) > JUMP:
                     # the sticking rate has jumped past lambda': the element slips the other way, it does not stop
                     direction, slip_new = -direction, -slip_new
                 elif held or events >= MOST_EVENTS:
                     mode = STICK
-                    _d, _l, delta_rate, lag_rate_new = sticking(motion, at, c_new)
+                    _d, _l, delta_rate, deflection_rate_new = sticking(motion, at, c_new)
                     u_rate_new, slip_new = -delta_rate, 0.0
                 else:
                     direction, slip_new = 1.0 if push > 0.0 else -1.0, 0.0
@@ -255,7 +278,14 @@ def run_element(
         else:
             _accumulate(integrals, dt, p, q, p_new, q_new, was_slipping)
             p, q, slip_speed = p_new, q_new, slip_new
-            u, u_rate, lag, lag_rate, delta, c = u_new, u_rate_new, lag_new, lag_rate_new, delta_new, c_new
+            u, u_rate, deflection, deflection_rate, delta, c = (
+                u_new,
+                u_rate_new,
+                deflection_new,
+                deflection_rate_new,
+                delta_new,
+                c_new,
+            )
             radial, fresh_radial = fresh_radial, radial
             longitudinal, fresh_longitudinal = fresh_longitudinal, longitudinal
         tick += ticks
@@ -271,10 +301,10 @@ def run_element(
                 record[k, INTEGRALS + j] = integrals[j]
             if mode != GONE:
                 record[k, TOUCHING], record[k, SLIPPING] = 1.0, 1.0 if mode == SLIP else 0.0
-                record[k, DELTA], record[k, LAG], record[k, SLIP_SPEED] = delta, lag, slip_speed
+                record[k, DELTA], record[k, DEFLECTION], record[k, SLIP_SPEED] = delta, deflection, slip_speed
                 record[k, FRICTION] = q
                 if mode == SLIP:
-                    record[k, FRICTION] = direction * kinetic(grip, p, slip_speed) * p
+                    record[k, FRICTION] = direction * kinetic(law, p, slip_speed) * p
     _rest(integrals, tick, dt_node, record)
     return tick
 

@@ -57,7 +57,7 @@ class Rubber(NamedTuple):
     mass: float
 
 
-class Grip(NamedTuple):
+class KernelLaw(NamedTuple):
     """The friction law, as `tread_validate.friction.kinetic_kernel` takes it, and the static coefficient."""
 
     static_coefficient: float

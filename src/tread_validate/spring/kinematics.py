@@ -1,7 +1,7 @@
-"""Where one element's foot B and contact point C are, and its spring lengths (section 4.2 and Fig. 11 of the paper).
+"""An element's mount point B, contact point C and spring lengths (section 4.2 and Fig. 11 of the paper).
 
 The neutral line is n = (sin theta, -cos theta), the belt's direction t = (cos theta, sin theta); with BC the vector
-from foot to contact point, delta = BC.n = L cos(gamma) and lambda = BC.t = L sin(gamma): Eqs. (6) and (7) of the paper,
+from B to C, delta = BC.n = L cos(gamma) and lambda = BC.t = L sin(gamma): Eqs. (6) and (7) of the paper,
 whose angles phi and gamma are never formed. A contact point is named by its place c on the
 road: x on the plane, the angle from the top on the big wheel.
 """
@@ -13,12 +13,12 @@ import math
 from ..kernels import kernel
 from .inputs import Motion
 
-Foot = tuple[float, float, float, float, float, float]
+MountPoint = tuple[float, float, float, float, float, float]
 
 
 @kernel()
-def foot(motion: Motion, arc: float) -> Foot:
-    """Return what the foot of the mount line does at an arc (m).
+def mount_point(motion: Motion, arc: float) -> MountPoint:
+    """Return what the mount point of the mount line does at an arc (m).
 
     x, y (m), sin and cos of theta, d theta/dt (rad/s), and the speed along the neutral line, towards the road (m/s).
     """
@@ -36,12 +36,12 @@ def foot(motion: Motion, arc: float) -> Foot:
         sine, cosine = math.sin(theta), math.cos(theta)
         return mount * sine, axle - mount * cosine, sine, cosine, motion.speed / surface, 0.0
     if motion.code == 3:
-        return _pressed_foot(motion, arc)
-    return _table_foot(motion, arc)
+        return _pressed_mount(motion, arc)
+    return _table_mount(motion, arc)
 
 
 @kernel()
-def _table_foot(motion: Motion, arc: float) -> Foot:
+def _table_mount(motion: Motion, arc: float) -> MountPoint:
     table, first, step = motion.table, motion.parameters[0], motion.parameters[1]
     last = first + step * (table.shape[0] - 1)
     inside = min(max(arc, first), last)
@@ -68,7 +68,7 @@ def _table_foot(motion: Motion, arc: float) -> Foot:
 
 
 @kernel()
-def _pressed_foot(motion: Motion, arc: float) -> Foot:
+def _pressed_mount(motion: Motion, arc: float) -> MountPoint:
     height, depth, pressed, released, left = motion.parameters
     quarter = 0.5 * math.pi
     down, up = quarter * arc / pressed, quarter * (arc - released) / (left - released)
@@ -86,7 +86,7 @@ def _pressed_foot(motion: Motion, arc: float) -> Foot:
 
 
 @kernel()
-def sticking(motion: Motion, at: Foot, c: float) -> tuple[float, float, float, float]:
+def sticking(motion: Motion, at: MountPoint, c: float) -> tuple[float, float, float, float]:
     """Return delta, lambda (m) and their rates (m/s) while C rides on the road at the place `c`."""
     x, y, sine, cosine, turn, sinking = at
     if motion.road_curvature == 0.0:
@@ -95,15 +95,15 @@ def sticking(motion: Motion, at: Foot, c: float) -> tuple[float, float, float, f
         ex, ey = math.cos(c), -math.sin(c)
         bx, by = -ey / motion.road_curvature - x, (ex - 1.0) / motion.road_curvature - y
     delta = bx * sine - by * cosine
-    lag = bx * cosine + by * sine
-    d_delta = motion.road_speed * (ex * sine - ey * cosine) + lag * turn - sinking
-    d_lag = motion.road_speed * (ex * cosine + ey * sine) - motion.speed * motion.speed_ratio - delta * turn
-    return delta, lag, d_delta, d_lag
+    deflection = bx * cosine + by * sine
+    d_delta = motion.road_speed * (ex * sine - ey * cosine) + deflection * turn - sinking
+    d_deflection = motion.road_speed * (ex * cosine + ey * sine) - motion.speed * motion.speed_ratio - delta * turn
+    return delta, deflection, d_delta, d_deflection
 
 
 @kernel()
-def sliding(motion: Motion, at: Foot, lag: float) -> tuple[float, float, float, float, float]:
-    """Return what holds while C is on the road with the longitudinal spring at `lag` (m).
+def sliding(motion: Motion, at: MountPoint, deflection: float) -> tuple[float, float, float, float, float]:
+    """Return what holds while C is on the road with the longitudinal spring at `deflection` (m).
 
     delta (m), place c on the road, the rate lambda would have if it stuck (m/s), d delta/d lambda along the road,
     and the two parts of the rate of delta: ``d delta/dt = slope (d lambda/dt) + drift``, slope being d delta/d lambda
@@ -111,12 +111,12 @@ def sliding(motion: Motion, at: Foot, lag: float) -> tuple[float, float, float, 
     """
     x, y, sine, cosine, turn, sinking = at
     if motion.road_curvature == 0.0:
-        delta = (y + lag * sine) / cosine
-        c = x + delta * sine + lag * cosine
+        delta = (y + deflection * sine) / cosine
+        c = x + delta * sine + deflection * cosine
         ex, ey = 1.0, 0.0
     else:
         radius = 1.0 / motion.road_curvature
-        px, py = x + lag * cosine, y + lag * sine  # from the big wheel's top
+        px, py = x + deflection * cosine, y + deflection * sine  # from the big wheel's top
         along = px * sine - (py + radius) * cosine
         outside = px * px + py * (py + 2.0 * radius)  # |P - O|^2 - R2^2
         delta = outside / (-along + math.sqrt(max(along * along - outside, 0.0)))
@@ -125,4 +125,4 @@ def sliding(motion: Motion, at: Foot, lag: float) -> tuple[float, float, float, 
     ahead, down = ex * cosine + ey * sine, ex * sine - ey * cosine
     slope = down / ahead
     mount = motion.speed * motion.speed_ratio + delta * turn
-    return delta, c, motion.road_speed * ahead - mount, slope, slope * mount + lag * turn - sinking
+    return delta, c, motion.road_speed * ahead - mount, slope, slope * mount + deflection * turn - sinking

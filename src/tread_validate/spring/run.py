@@ -19,7 +19,7 @@ def run(case: Case, variant: str = "paper") -> History:
     """Return the history of one block pass.
 
     Normal force N = sum F_r, tangential force T = -sum F_l, share of the touching area that slips; uniform clock from
-    the first touch to a little after the last. A free-rolling case without a creep ratio gets the one of
+    the first contact to a little after the last. A free-rolling case without a creep ratio gets the one of
     `resolve_creep`. Raises `InputError` for a case that cannot run.
     """
     (case,) = resolve_creep([case])

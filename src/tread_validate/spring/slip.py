@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from ..friction import kinetic_kernel
 from ..kernels import kernel
-from .inputs import Grip, Motion, Rubber
-from .kinematics import Foot, sliding
+from .inputs import KernelLaw, Motion, Rubber
+from .kinematics import MountPoint, sliding
 
 Array = NDArray[np.float64]
 Stage = tuple[bool, float, float, float, float, float, float, float, float]
@@ -24,14 +24,14 @@ NEWTON_STEPS = 50
 
 
 @kernel()
-def kinetic(grip: Grip, pressure: float, slip_speed: float) -> float:
+def kinetic(law: KernelLaw, pressure: float, slip_speed: float) -> float:
     """Return the kinetic friction coefficient at a pressure (Pa) and slip speed (m/s)."""
     return kinetic_kernel(
-        grip.code,
-        grip.parameters,
-        grip.pressures,
-        grip.slip_speeds,
-        grip.table,
+        law.code,
+        law.parameters,
+        law.pressures,
+        law.slip_speeds,
+        law.table,
         max(pressure, 0.0),
         max(slip_speed, 0.0),
     )
@@ -41,12 +41,12 @@ def kinetic(grip: Grip, pressure: float, slip_speed: float) -> float:
 def slip_stage(
     motion: Motion,
     rubber: Rubber,
-    grip: Grip,
-    at: Foot,
+    law: KernelLaw,
+    at: MountPoint,
     height: float,
     direction: float,
     implicit: float,
-    lag_base: float,
+    deflection_base: float,
     momentum_base: float,
     guess: float,
     radial: Array,
@@ -58,7 +58,7 @@ def slip_stage(
     ----------
     implicit : float, s
         Weight of the stage's own rates.
-    lag_base, momentum_base : float, m and kg/(m s)
+    deflection_base, momentum_base : float, m and kg/(m s)
         lambda and m lambda' without the stage's own rates.
     radial, longitudinal : (4,) arrays
         The memory of each spring as a function of its input u and rate r at the stage:
@@ -74,18 +74,23 @@ def slip_stage(
     gain = (implicit * (modulus + radial[2]) + radial[1]) / height
     low, high = -np.inf, np.inf
     for step in range(NEWTON_STEPS):
-        lag = lag_base + implicit * rate
-        delta, _c, stick_rate, slope, drift = sliding(motion, at, lag)
+        deflection = deflection_base + implicit * rate
+        delta, _c, stick_rate, slope, drift = sliding(motion, at, deflection)
         u, du = height - delta, -(slope * rate + drift)
         p = (modulus * u + radial[0] + radial[1] * du + radial[2] * (u - radial[3])) / height
-        q = modulus * lag + longitudinal[0] + longitudinal[1] * rate + longitudinal[2] * (lag - longitudinal[3])
+        q = (
+            modulus * deflection
+            + longitudinal[0]
+            + longitudinal[1] * rate
+            + longitudinal[2] * (deflection - longitudinal[3])
+        )
         q *= rubber.shear_ratio / height
         w = direction * (stick_rate - rate)
-        mu = kinetic(grip, p, w)
+        mu = kinetic(law, p, w)
         push = direction * mu * max(p, 0.0) - q
         residual = rubber.mass * rate - momentum_base - implicit * push
         dw = 1e-9 + 1e-6 * max(w, 0.0)
-        mu_slope = (kinetic(grip, p, w + dw) - mu) / dw if w > 0.0 else 0.0
+        mu_slope = (kinetic(law, p, w + dw) - mu) / dw if w > 0.0 else 0.0
         stiffness = gain * (rubber.shear_ratio + direction * mu * slope) + mu_slope * max(p, 0.0)
         tangent = rubber.mass + implicit * stiffness
         # the law's floors are kinks on which plain Newton steps can go round in circles: keep the root between bounds
@@ -95,13 +100,13 @@ def slip_stage(
             high = rate
         change = -residual / tangent if tangent > 0.0 else np.nan
         if abs(change) <= 1e-8 + 1e-7 * abs(w):
-            return True, rate, lag, p, q, w, du, delta, push
+            return True, rate, deflection, p, q, w, du, delta, push
         bounded = high - low < np.inf
         if not low < rate + change < high or (bounded and step > 5):
             if not bounded:
-                return False, rate, lag, p, q, w, du, delta, push
+                return False, rate, deflection, p, q, w, du, delta, push
             change = 0.5 * (low + high) - rate
             if abs(change) <= 1e-9:
-                return True, rate, lag, p, q, w, du, delta, push
+                return True, rate, deflection, p, q, w, du, delta, push
         rate += change
-    return False, rate, lag, p, q, w, du, delta, push
+    return False, rate, deflection, p, q, w, du, delta, push

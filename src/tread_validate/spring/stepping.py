@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..model_names import current_name
 from ..study import Case
 
 Array = NDArray[np.float64]
 
 MODELS: Mapping[str, str] = MappingProxyType({
-    "coupled": "coupled.face_pass:block_of",
-    "coupled_coarse": "coupled.face_pass:coarse_block_of",
+    "condensed": "condensed.face_pass:block_of",
+    "condensed_coarse": "condensed.face_pass:coarse_block_of",
 })  # fmt: skip
 """Models that can be stepped, and what makes their state."""
 
@@ -69,7 +70,8 @@ class TreadBlock:
     while the contact's edge moves. Between steps the mount moves evenly.
     """
 
-    def __init__(self, case: Case, model: str = "coupled") -> None:
+    def __init__(self, case: Case, model: str = "condensed") -> None:
+        model = current_name(model)
         if model not in MODELS:
             raise InputError("tread block: model", model, f"one of {', '.join(MODELS)}")
         module, _, function = MODELS[model].partition(":")

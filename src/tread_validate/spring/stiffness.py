@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..study import Block
 from ..units import MM
-from .coupled.body import Body
-from .coupled.condense import FaceStiffness
+from .condensed.body import Body
+from .condensed.condense import FaceStiffness
 
 Array = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 class Pass(Protocol):
-    """What a variant makes of a case: forces of the block at any creep ratio, on a uniform clock from first touch."""
+    """What a variant makes of a case: forces of the block at any creep ratio, on a uniform clock from first contact."""
 
     @property
     def step(self) -> float:
@@ -42,19 +42,19 @@ BUILT_IN: Mapping[str, tuple[str, str]] = {
         "block_pass:prepare_light",
         "the same with a hundredth of the lumped mass: near the massless limit |F_l| = mu_k F_r",
     ),
-    "bonded": (
-        "bonded:prepare_bonded",
+    "shape_factor": (
+        "shape_factor:prepare_shape_factor",
         "the paper's springs with the block's apparent moduli, from one static elastic solve",
     ),
-    "bonded_theory": (
-        "bonded:prepare_bonded_theory",
+    "shape_factor_theory": (
+        "shape_factor:prepare_shape_factor_theory",
         "the same with moduli from shape-factor theory, for rectangles",
     ),
-    "coupled": (
-        "coupled.face_pass:prepare_coupled",
+    "condensed": (
+        "condensed.face_pass:prepare_condensed",
         "springs that know their neighbours: the block condensed on to its face, 8 elements a height",
     ),
-    "coupled_coarse": ("coupled.face_pass:prepare_coarse", "the same with 4 elements a height, for many runs"),
+    "condensed_coarse": ("condensed.face_pass:prepare_coarse", "the same with 4 elements a height, for many runs"),
 }
 COMMON = ("spring.run", "spring.summary", "spring.block_pass")
 """Code behind every variant: the run, its summary, and the paper's model, which finds the creep of free rolling."""

@@ -140,7 +140,7 @@ def draw(stimuli: list[Stimulus], path: Path, assumed: str = "") -> None:
         axes[0, 0].legend()
         axes[0, 1].set_title("dotted: block-passing frequency and its harmonics", loc="left")
         if assumed:
-            note(figure, one_line("rests on " + assumed, 150))
+            note(figure, one_line("depends on " + assumed, 150))
         save(figure, path)
 
 

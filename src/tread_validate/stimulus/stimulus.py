@@ -106,7 +106,7 @@ def superpose(
     speed : float, m/s
         Belt speed, > 0.
     history_of : function of a `Placement` to a `History`
-        The block's forces on a clock that begins at its first touch.
+        The block's forces on a clock that begins at its first contact.
     highest_frequency : float, Hz
         Lines are given up to here.
     longest_step : float, s

@@ -93,7 +93,7 @@ class Case:
         return replace(self, creep_ratio=creep_ratio)
 
     def assumed(self) -> tuple[str, ...]:
-        """Name the assumed and synthetic inputs that this case rests on."""
+        """Name the assumed and synthetic inputs that this case depends on."""
         inputs: tuple[tuple[str, Sourced], ...] = (
             (f"compound {self.compound_name}", self.compound),
             (f"friction law {self.friction_name}", self.friction),

@@ -2,7 +2,7 @@
 
 A new key of the study therefore changes the digest of the cases that have it until somebody says that it is a label,
 and why. The numbers that decide only how finely a solver works are marked too, so that the physical problem has a
-digest of its own, which a run of any solver may be held against.
+digest of its own, which a run of any solver may be compared with.
 """
 
 from __future__ import annotations

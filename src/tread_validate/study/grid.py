@@ -1,4 +1,4 @@
-"""From factor grids to cases."""
+"""From test matrices to cases."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs: factor grids over the inputs of a study."""
+"""Runs: test matrices over the inputs of a study."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Creep = Literal["free_rolling"] | Annotated[FiniteFloat, Field(gt=-20, lt=20)]
 
 
 class Run(Strict):
-    """A factor grid: every list is a factor, and the runs are their product."""
+    """A test matrix: every list is a factor, and the runs are their product."""
 
     name: Annotated[Name, Label("names the run")]
     path: Name | Annotated[tuple[Name, ...], Field(min_length=1)]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, FiniteFloat
+from pydantic import Field, FiniteFloat, field_validator
 
 from ..fields import Label, Line, Name, NonNegative, Positive, Strict
+from ..model_names import current_name
 
 
 class SpringSettings(Strict):
@@ -19,6 +20,11 @@ class SpringSettings(Strict):
     variants: Annotated[tuple[Name, ...], Field(min_length=1), Label("which models run; each run names its own")] = (
         "paper",
     )
+
+    @field_validator("variants")
+    @classmethod
+    def _todays_names(cls, names: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(current_name(name) for name in names))
 
 
 class Tolerance(Strict):

@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ..files import atomic_path
-from ..ladder.figures import STYLES
+from ..hierarchy.figures import STYLES
 from .table import Point
 
 SHOWN: tuple[tuple[str, str, tuple[float, ...]], ...] = (
@@ -18,7 +18,7 @@ SHOWN: tuple[tuple[str, str, tuple[float, ...]], ...] = (
     ("creep", "creep over the sticking limit", ()), ("poisson", "Poisson's ratio", ()),
 )  # fmt: skip
 """Groups, their labels, and the ticks of those on a logarithmic axis."""
-MODELS = ("bonded", "coupled_coarse", "coupled")
+MODELS = ("shape_factor", "condensed_coarse", "condensed")
 
 
 def error_figure(points: Sequence[Point], path: Path) -> None:

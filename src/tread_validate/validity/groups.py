@@ -26,7 +26,7 @@ class Groups:
     radius : R/l
         Radius of the path relative to the road where the block first touches, over the block's length.
     friction : mu_s
-    grip : mu_s G/p
+    law : mu_s G/p
         Friction over the shear stiffness, p = E D/h; follows from D/h, mu_s and nu.
     relaxation : V tau/l
         tau the mean relaxation time, weighted in its logarithm by the moduli.
@@ -44,7 +44,7 @@ class Groups:
     width: float
     radius: float
     friction: float
-    grip: float
+    law: float
     relaxation: float
     creep: float
     speed: float
@@ -64,14 +64,14 @@ def groups_of(case: Case) -> Groups:
     height = case.height
     length, width = case.block.length_mm * 1e-3, case.block.width_mm * 1e-3
     nu, friction = case.compound.poissons_ratio, law_of(case).static_coefficient
-    bend = abs(float(path.line.curvature(path.first_touch_arc)))
+    bend = abs(float(path.line.curvature(path.first_contact_arc)))
     bend += 0.0 if path.road.is_plane else 1.0 / path.road.radius
     column = max(path.contact_duration - path.columns.extent / path.speed, 0.0)
     strain = case.interference / height
     total = float(series.moduli.sum())
     mean_time = math.exp(float(series.moduli @ np.log(series.relaxation_times)) / total) if total > 0.0 else 0.0
     shear = series.instantaneous_modulus / (2.0 * (1.0 + nu))
-    grip = friction / (2.0 * (1.0 + nu) * strain)
+    law = friction / (2.0 * (1.0 + nu) * strain)
     sheared = case.creep_ratio * path.speed * column / height
     return Groups(
         interference=strain,
@@ -79,7 +79,7 @@ def groups_of(case: Case) -> Groups:
         width=width / height,
         radius=1.0 / (max(bend, 1e-6) * length),
         friction=friction,
-        grip=grip,
+        law=law,
         relaxation=path.speed * mean_time / length,
         creep=sheared / max(2.0 * (1.0 + nu) * friction * strain, 1e-9),
         speed=path.speed / math.sqrt(shear / case.compound.density_kg_m3),

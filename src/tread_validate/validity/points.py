@@ -18,7 +18,7 @@ from ..spring.variants import code_digest as model_digest
 from ..study import Case
 from .groups import groups_of
 
-MODELS = ("paper", "bonded", "coupled_coarse", "coupled")
+MODELS = ("paper", "shape_factor", "condensed_coarse", "condensed")
 QUANTITIES = ("normal", "impulse", "positive", "negative")
 """Peak N, impulse of N, positive and negative peak of T."""
 MESHES = (4, 6)

@@ -34,7 +34,7 @@ def test_indentation_rebuilt_from_the_file_is_the_path_s(cases):
         samples, columns = document.path.samples, document.block.columns
         time = np.linspace(0.0, document.expected_duration_s, 57)
         for s in (0.0, 0.4 * columns.s_m[-1], columns.s_m[-1]):
-            arc = document.path.first_touch_arc_m + document.path.arc_speed_m_s * time
+            arc = document.path.first_contact_arc_m + document.path.arc_speed_m_s * time
             arc = arc - np.interp(s, columns.s_m, columns.arc_offset_m)
             x, y, slope = (
                 np.interp(arc, samples.arc_m, values) for values in (samples.x_m, samples.y_m, samples.slope_rad)

@@ -40,9 +40,9 @@ def baseline(flips=0, moved=0):
     ("found", "message", "color"),
     [
         (None, "no baseline", GREY),
-        (baseline(), "no verdict flipped", GREEN),
+        (baseline(), "no assessment flipped", GREEN),
         (baseline(moved=1), "1 row moved", AMBER),
-        (baseline(flips=2, moved=3), "2 verdicts flipped", RED),
+        (baseline(flips=2, moved=3), "2 assessments flipped", RED),
     ],
 )
 def test_badge_of_a_study_tells_what_moved(tmp_path, found, message, color):
@@ -72,11 +72,11 @@ def test_verb_writes_picture_and_endpoint_and_refuses_other_files(tmp_path, caps
     path = summary(tmp_path, baseline(flips=1))
     assert run(["badge", str(path), "-o", str(tmp_path / "b.svg")]) == 0
     root = ElementTree.parse(tmp_path / "b.svg").getroot()
-    assert [text.text for text in root.iter(f"{SVG}text")] == ["tread_validate", "1 verdict flipped"]
-    assert root.get("aria-label") == "tread_validate: 1 verdict flipped"
+    assert [text.text for text in root.iter(f"{SVG}text")] == ["tread_validate", "1 assessment flipped"]
+    assert root.get("aria-label") == "tread_validate: 1 assessment flipped"
     assert run(["badge", str(path), "-o", str(tmp_path / "b.json")]) == 0
     endpoint = json.loads((tmp_path / "b.json").read_text())
-    assert endpoint == {"schemaVersion": 1, "label": "tread_validate", "message": "1 verdict flipped", "color": RED}
+    assert endpoint == {"schemaVersion": 1, "label": "tread_validate", "message": "1 assessment flipped", "color": RED}
     assert run(["badge", str(path), "-o", str(tmp_path / "b.png")]) == 2
     (tmp_path / "other.json").write_text("[]")
     assert run(["badge", str(tmp_path / "other.json"), "-o", str(tmp_path / "c.svg")]) == 2

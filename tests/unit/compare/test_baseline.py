@@ -98,33 +98,33 @@ def test_new_missing_and_stale_rows_fail(copy: Any, baseline: Path) -> None:
 
 
 def test_flips_come_first_then_rules_then_moves_then_what_follows(copy: Any, baseline: Path) -> None:
-    """One flipped verdict, one changed tolerance, one moved peak, one moved error: in this order, however far out."""
+    """One flipped assessment, a changed tolerance, a moved peak, a moved error: in this order, however far out."""
     changed(copy.tables, MetricRow, {"case_id": CASE, "quantity": "contact_duration"}, error=0.5)
     key = {"case_id": CASE, "quantity": "peak_normal_force", "reference_source": "fe:embedded"}
-    changed(copy.tables, MetricRow, key, verdict="agrees")
+    changed(copy.tables, MetricRow, key, assessment="agrees")
     changed(copy.tables, MetricRow, {"case_id": CASE, "quantity": "normal_impulse"}, tolerance=0.2)
     check = moved(copy, baseline, 1e-3)
     assert [row.kind for row in check.failed] == ["flip", "rule", "run", "consequence"]
     assert len(check.flips) == 1
-    assert summary(check).startswith("1 verdicts flipped; 4 of")
+    assert summary(check).startswith("1 assessments flipped; 4 of")
 
 
 def test_the_change_is_written_for_people_and_for_ci_systems(copy: Any, baseline: Path) -> None:
     """Markdown of a screen, however much moved, that links the worst case; JUnit whose names do not change."""
     rows = read_rows(copy.tables / "errors.csv", MetricRow)
     spoilt = [
-        replace(row, error=row.error * 1.5, verdict="cannot tell") if row.error is not None else row for row in rows
+        replace(row, error=row.error * 1.5, assessment="cannot tell") if row.error is not None else row for row in rows
     ]
     write_rows(copy.tables, MetricRow, spoilt)
     accepted = load_baseline(baseline)
     check = check_tables(accepted, copy.tables)
     page = delta_markdown(check, accepted.acceptance, movements(accepted, copy.tables), "index.html")
     assert len(page.splitlines()) <= 60
-    assert page.index("verdict of") < page.index("better") < page.index("times noise")
+    assert page.index("assessment of") < page.index("better") < page.index("times noise")
     assert "](index.html#case=" in page
     assert "| 0 | 28 |" in page
     root = ET.fromstring(delta_junit(check, [("peaks", "spring:paper")]).split("\n", 1)[1])
-    assert [suite.get("name") for suite in root] == ["verdicts", "numbers"]
+    assert [suite.get("name") for suite in root] == ["assessments", "numbers"]
     assert (root.get("tests"), root.get("failures")) == ("4", "2")
     assert delta_csv(check).count("\n") == len(check.deltas) + 1
 
@@ -272,12 +272,12 @@ def test_check_ends_with_one_where_a_cell_moved(copy: Any, baseline: Path, capsy
 
 
 def test_a_model_that_iterates_has_wider_noise(copy: Any, baseline: Path) -> None:
-    """A peak that moves by twice the noise fails; under the name of the coupled springs it passes (five times)."""
+    """A peak that moves by twice the noise fails; under the name of the condensed face it passes (five times)."""
     width = 2.07e-4
     assert moved(copy, baseline, 2.0 * width).failed
     for folder in (copy.tables, baseline):
         path = folder / "peaks.csv"
-        path.write_text(path.read_text(encoding="utf-8").replace("spring:paper", "spring:coupled"), encoding="utf-8")
+        path.write_text(path.read_text(encoding="utf-8").replace("spring:paper", "spring:condensed"), encoding="utf-8")
     record = yaml.safe_load((baseline / "baseline.yaml").read_text(encoding="utf-8"))
     record["tables"]["peaks"]["sha256"] = hashlib.sha256((baseline / "peaks.csv").read_bytes()).hexdigest()
     (baseline / "baseline.yaml").write_text(yaml.safe_dump(record), encoding="utf-8")

@@ -31,7 +31,7 @@ TABLE = replace(
 def test_a_value_agrees_inside_its_interval_ends_included(value: float | None, expected: str) -> None:
     """180 to 220 N, both ends in."""
     found = judge(VALUE, "model", "spring:paper", Computed(value))
-    assert found.verdict == expected
+    assert found.assessment == expected
     if value is not None:
         assert found.error == pytest.approx((value - 200.0) / 200.0)
 
@@ -73,22 +73,22 @@ def test_table_1_is_judged_by_the_test_of_its_differences(printed_sd: float, com
     """
     found = TABLE_1["table1_a_v_rectangle_rig"](evidence_of(printed_sd, computed, 0.5), "spring:paper")
     assert found.value == pytest.approx(computed)
-    assert found.verdict == expected
-    assert judge(TABLE, "model", "spring:paper", found).verdict == expected
+    assert found.assessment == expected
+    assert judge(TABLE, "model", "spring:paper", found).assessment == expected
 
 
 def test_an_input_has_to_be_the_printed_number() -> None:
     """Without an interval four digits have to agree."""
     row = replace(VALUE, value=8.86, low=None, high=None, spread_kind="none", comparability="input")
-    assert judge(row, "input", "study", Computed(8.86)).verdict == "agrees"
-    assert judge(row, "input", "study", Computed(8.87)).verdict == "disagrees"
+    assert judge(row, "input", "study", Computed(8.86)).assessment == "agrees"
+    assert judge(row, "input", "study", Computed(8.87)).assessment == "disagrees"
 
 
 def test_what_has_to_exist_has_to_be_more_than_nothing() -> None:
     """Some slip: 0 is none, anything above is some."""
     row = replace(VALUE, value=None, low=0.0, high=1.0, spread_kind="exists")
-    assert judge(row, "model", "x", Computed(0.0)).verdict == "disagrees"
-    assert judge(row, "model", "x", Computed(0.01)).verdict == "agrees"
+    assert judge(row, "model", "x", Computed(0.0)).assessment == "disagrees"
+    assert judge(row, "model", "x", Computed(0.01)).assessment == "agrees"
 
 
 def test_a_computed_input_that_differs_shows(copy: Any) -> None:
@@ -102,7 +102,7 @@ def test_a_computed_input_that_differs_shows(copy: Any) -> None:
     import csv
 
     with (tables / "claims.csv").open(newline="", encoding="utf-8") as stream:
-        found = {row["claim_id"]: row["verdict"] for row in csv.DictReader(stream) if row["source"] == "study"}
+        found = {row["claim_id"]: row["assessment"] for row in csv.DictReader(stream) if row["source"] == "study"}
     assert found["belt_speed"] == found["big_wheel_diameter"] == "disagrees"
     assert found["wlf_c1"] == found["belt_compression"] == "agrees"
 
@@ -182,11 +182,11 @@ def test_a_difference_that_is_significant_only_alone_cannot_be_told() -> None:
     (test,) = alone.differences
     assert test.p_value is not None
     assert 0.01 < test.p_value < 0.02
-    assert TABLE_1["table1_a_v_rectangle_rig"](alone, "spring:paper").verdict == "disagrees"
+    assert TABLE_1["table1_a_v_rectangle_rig"](alone, "spring:paper").assessment == "disagrees"
     others = [replace(test, source_b=f"spring:{i}", p_value=0.9) for i in range(9)]
     among = replace(alone, differences=corrected([test, *others]))
     found = TABLE_1["table1_a_v_rectangle_rig"](among, "spring:paper")
-    assert found.verdict == "cannot tell"
+    assert found.assessment == "cannot tell"
     assert "as one of 10 (Holm)" in found.note
 
 
@@ -199,8 +199,8 @@ def test_statements_are_judged_only_where_the_inputs_are_the_papers(copy: Any) -
     rows = read_rows(copy.build() / "claims.csv", ClaimRow)
     own = {row.claim_id: row for row in rows if row.source in ("spring:paper", "study")}
     force = own["belt_normal_force"]
-    assert (force.status, force.verdict) == ("not_applicable", "cannot tell")
+    assert (force.status, force.assessment) == ("not_applicable", "cannot tell")
     assert "speed 20, published 16.7 m/s" in force.note
     assert own["table1_a_v_rectangle_rig"].status == "current"
-    assert own["belt_speed"].verdict == "disagrees"
-    assert all(row.verdict == "cannot tell" for row in rows if row.status == "not_applicable")
+    assert own["belt_speed"].assessment == "disagrees"
+    assert all(row.assessment == "cannot tell" for row in rows if row.status == "not_applicable")

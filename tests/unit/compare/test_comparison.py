@@ -1,4 +1,4 @@
-"""One run against its reference: rows, verdicts, bad input."""
+"""One run against its reference: rows, assessments, bad input."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tread_validate.cli.app import run as tread_validate
-from tread_validate.compare import compare, empty_rows, verdict
+from tread_validate.compare import assessment, compare, empty_rows
 from tread_validate.compare.quantities import SCALAR, tolerances
 from tread_validate.compare.scores.align import align, window
+from tread_validate.compare.scores.assessment import Parts, agreement
 from tread_validate.compare.scores.comparison import scalar_row
 from tread_validate.compare.scores.uncertainty import from_mesh_error
-from tread_validate.compare.scores.verdict import Parts, agreement
 from tread_validate.errors import InputError
 from tread_validate.history import History
 from tread_validate.study import Tolerance
@@ -35,11 +35,11 @@ def half_sine(
 
 
 @given(FINITE, SIZE, SIZE)
-def test_a_verdict_holds_for_every_error_that_the_uncertainty_allows(
+def test_a_assessment_holds_for_every_error_that_the_uncertainty_allows(
     error: float, tolerance: float, spread: float
 ) -> None:
     """adequate: both ends of error -+ spread pass; inadequate: the nearer end (or zero, if between) fails."""
-    found = verdict(error, tolerance, spread)
+    found = assessment(error, tolerance, spread)
     nearest = max(0.0, abs(error) - spread)
     if found == "adequate":
         assert abs(error) + spread <= tolerance
@@ -58,9 +58,9 @@ def test_agreement_asks_for_nothing_but_the_uncertainty(error: float, spread: fl
 
 def test_without_an_uncertainty_nothing_can_be_told() -> None:
     """Neither agreement nor disagreement can be claimed of a reference whose uncertainty is not known."""
-    assert verdict(0.0, 0.1, None) == verdict(5.0, 0.1, None) == agreement(5.0, None) == "cannot tell"
-    assert verdict(None, 0.1, 0.0) == agreement(None, 0.0) == "cannot tell"
-    assert verdict(float("nan"), 0.1, 0.0) == agreement(float("nan"), 0.0) == "cannot tell"
+    assert assessment(0.0, 0.1, None) == assessment(5.0, 0.1, None) == agreement(5.0, None) == "cannot tell"
+    assert assessment(None, 0.1, 0.0) == agreement(None, 0.0) == "cannot tell"
+    assert assessment(float("nan"), 0.1, 0.0) == agreement(float("nan"), 0.0) == "cannot tell"
     assert Parts(0.0, None, 0.1).expanded is None
 
 
@@ -93,14 +93,14 @@ def test_relative_errors_do_not_depend_on_the_size_of_the_forces(peak: float, fa
             continue  # what is judged in newtons has a floor in newtons
         assert b.error == pytest.approx(a.error, abs=1e-7)
         limits = (abs(a.error) + a.uncertainty, abs(a.error) - a.uncertainty)
-        assert a.verdict == b.verdict or min(abs(limit - (a.tolerance or 0.0)) for limit in limits) < 1e-6
+        assert a.assessment == b.assessment or min(abs(limit - (a.tolerance or 0.0)) for limit in limits) < 1e-6
 
 
 def test_a_run_agrees_with_itself() -> None:
     """Every error 0, every score 1, all good enough and in agreement, but slip, whose uncertainty is not known."""
     rows = compare(half_sine(), half_sine(), uncertainty=0.01)
     assert all(row.error == pytest.approx(0.0, abs=1e-7) for row in rows)
-    assert {row.quantity for row in rows if row.verdict != "adequate"} == {"slipping_share"}
+    assert {row.quantity for row in rows if row.assessment != "adequate"} == {"slipping_share"}
     assert {row.quantity for row in rows if row.agreement != "agrees"} == {"slipping_share"}
 
 
@@ -151,7 +151,7 @@ def test_a_study_chooses_what_is_good_enough() -> None:
         for row in compare(half_sine(), half_sine(115.0, 34.5), uncertainty=0.001, tolerances=judged)
         if row.metric == "scalar"
     }
-    assert (rows["peak_normal_force"].verdict, rows["normal_impulse"].verdict) == ("adequate", "inadequate")
+    assert (rows["peak_normal_force"].assessment, rows["normal_impulse"].assessment) == ("adequate", "inadequate")
     assert rows["peak_positive_tangential_force"].tolerance == 5.0
 
 
@@ -168,7 +168,7 @@ def test_a_tolerance_of_nothing_is_refused(name: str, chosen: Tolerance, match: 
         tolerances({name: chosen}, "study.yaml")
 
 
-def test_the_uncertainty_of_a_reference_reaches_the_verdict() -> None:
+def test_the_uncertainty_of_a_reference_reaches_the_assessment() -> None:
     """8 % high, tolerance 10 %: good enough at a standard uncertainty of 0.5 %, open at 5 %, where the two agree; 30 %
     high is not good enough at either.
     """
@@ -181,7 +181,7 @@ def test_the_uncertainty_of_a_reference_reaches_the_verdict() -> None:
     ):
         rows = compare(half_sine(), half_sine(100.0 * factor), uncertainty=mesh)
         row = next(row for row in rows if row.quantity == "peak_normal_force")
-        assert (row.verdict, row.agreement) == (good, agrees)
+        assert (row.assessment, row.agreement) == (good, agrees)
 
 
 def test_a_mesh_error_by_quantity_is_used_where_it_is_known() -> None:
@@ -211,8 +211,8 @@ def test_what_a_model_does_not_give_is_said() -> None:
         "slipping_share",
         "late_sign_change",
     } <= lost
-    assert all(row.verdict == "cannot tell" and row.error is None for row in rows if row.status == "not_given")
-    assert next(row for row in rows if row.quantity == "peak_normal_force").verdict == "adequate"
+    assert all(row.assessment == "cannot tell" and row.error is None for row in rows if row.status == "not_given")
+    assert next(row for row in rows if row.quantity == "peak_normal_force").assessment == "adequate"
 
 
 def test_histories_of_other_lengths_and_samplings_are_compared_on_one_clock() -> None:

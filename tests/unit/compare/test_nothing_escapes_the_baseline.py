@@ -1,4 +1,4 @@
-"""Changes that once passed the check: each table, each verdict and each rule behind one is held."""
+"""Changes that once passed the check: each table, each assessment and each rule behind one is held."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def test_a_wider_tolerance_is_caught_with_its_flips_first(copy: Any, baseline: P
     )
     copy.study.write_text(f"{text}tolerances:\n{wide}", encoding="utf-8")
     found = _rebuilt(copy, baseline)
-    assert found[0] == ("flip", "errors", "verdict") or found[0] == ("flip", "errors", "passed")
+    assert found[0] == ("flip", "errors", "assessment") or found[0] == ("flip", "errors", "passed")
     kinds = [kind for kind, _, _ in found]
     assert kinds.index("rule") == kinds.count("flip")
     assert ("rule", "errors", "tolerance") in found
@@ -133,12 +133,12 @@ def test_the_sign_of_a_bias_is_caught(copy: Any, baseline: Path, monkeypatch: py
 
 
 def test_a_larger_mesh_error_of_a_reference_is_caught(copy: Any, baseline: Path) -> None:
-    """Two per cent to fifty: verdicts flip to `cannot tell`, and the uncertainty they rest on has moved."""
+    """Two per cent to fifty: assessments flip to `cannot tell`, and the uncertainty they depend on has moved."""
     for record in (copy.references / "fe").rglob("*.yaml"):
         record.write_text(record.read_text(encoding="utf-8").replace("mesh_error: 0.02", "mesh_error: 0.5"))
     found = _rebuilt(copy, baseline)
     assert {row[0] for row in found[:10]} == {"flip"}
-    assert ("flip", "errors", "verdict") in found
+    assert ("flip", "errors", "assessment") in found
     assert ("rule", "errors", "u_data") in found
 
 

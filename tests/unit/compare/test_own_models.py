@@ -31,7 +31,7 @@ def test_blind_bias_of_five_per_cent_and_three_newtons_comes_out_as_such():
     rows = rows_of(History.of(TIME, 1.05 * NORMAL, shifted))
     normal = rows["peak_normal_force", "scalar"]
     assert normal.error == pytest.approx(0.05, abs=1e-12)
-    assert normal.verdict == "adequate"
+    assert normal.assessment == "adequate"
     for sign in ("positive", "negative"):
         row = rows[f"peak_{sign}_tangential_force", "scalar"]
         assert row.predicted - row.reference == pytest.approx(-3.0, abs=1e-9)
@@ -40,8 +40,8 @@ def test_blind_bias_of_five_per_cent_and_three_newtons_comes_out_as_such():
 
 def test_what_a_model_leaves_out_is_not_given_and_the_rest_is_judged():
     rows = rows_of(History.of(TIME, 1.01 * NORMAL))
-    assert rows["peak_normal_force", "scalar"].verdict == "adequate"
-    assert rows["normal_force", "iso18571_r"].verdict == "adequate"
+    assert rows["peak_normal_force", "scalar"].assessment == "adequate"
+    assert rows["normal_force", "iso18571_r"].assessment == "adequate"
     for key in (
         ("peak_positive_tangential_force", "scalar"),
         ("net_tangential_impulse", "scalar"),
@@ -50,7 +50,7 @@ def test_what_a_model_leaves_out_is_not_given_and_the_rest_is_judged():
         ("tangential_force", "iso18571_r"),
     ):
         assert rows[key].status == "not_given"
-        assert rows[key].verdict == "cannot tell"
+        assert rows[key].assessment == "cannot tell"
         assert rows[key].error is None
 
 
@@ -59,7 +59,7 @@ def test_newtons_taken_for_kilonewtons_are_pointed_out_and_not_corrected(factor,
     row = rows_of(History.of(TIME, factor * NORMAL))["peak_normal_force", "scalar"]
     assert f"{word} than the reference by a factor of 1000" in row.note
     assert row.predicted == pytest.approx(factor * 200.0)
-    assert row.verdict == "inadequate"
+    assert row.assessment == "inadequate"
 
 
 def test_tangential_force_with_its_sign_turned_is_pointed_out():

@@ -70,7 +70,7 @@ def test_a_measured_record_is_compared_with_its_spread(copy: Any) -> None:
     assert float(peak["error"]) == pytest.approx(1 / 1.1 - 1, rel=1e-5)
     assert float(peak["u_data"]) == pytest.approx(0.05 / 3.0**0.5 * (2 - 1 / 1.1), rel=1e-5)
     assert (peak["u_input"], peak["uncertainty"], peak["agreement"]) == ("", "", "cannot tell")
-    assert peak["verdict"] == "cannot tell"
+    assert peak["assessment"] == "cannot tell"
     measured = [row for row in rows_of(tables, "regression") if row["source"] == "rig:measured"]
     assert measured
     assert {row["status"] for row in measured} == {"missing"}

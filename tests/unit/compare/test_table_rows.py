@@ -117,7 +117,7 @@ def test_a_scalar_that_does_not_exist_is_an_attribute_error(half_sine: Any) -> N
 
 
 def test_the_summary_says_what_the_tables_say(workspace: Any, tmp_path: Path) -> None:
-    """Mean error, counts of verdicts and states of the references are those of the tables; no check, no baseline."""
+    """Mean error, counts of assessments and states of the references are those of the tables; no check, no baseline."""
     facts = json.loads((workspace.tables / "summary.json").read_text(encoding="utf-8"))
     assert facts["baseline"] is None
     errors = read_rows(workspace.tables / "errors.csv", MetricRow)
@@ -131,13 +131,13 @@ def test_the_summary_says_what_the_tables_say(workspace: Any, tmp_path: Path) ->
         known = [abs(row.error) for row in own if row.error is not None]
         assert item["mean_abs_error"] == pytest.approx(sum(known) / len(known), rel=1e-5)
         assert item["largest_abs_error"] == pytest.approx(max(known), rel=1e-6)
-        verdicts = [item[name] for name in ("adequate", "inadequate", "cannot_tell")]
-        assert verdicts == [
-            sum(row.verdict == name for row in own) for name in ("adequate", "inadequate", "cannot tell")
+        assessments = [item[name] for name in ("adequate", "inadequate", "cannot_tell")]
+        assert assessments == [
+            sum(row.assessment == name for row in own) for name in ("adequate", "inadequate", "cannot tell")
         ]
-        words = {row.verdict for row in own}
+        words = {row.assessment for row in own}
         expected = "inadequate" if "inadequate" in words else "adequate" if words == {"adequate"} else "cannot tell"
-        assert item["verdict"] == expected
+        assert item["assessment"] == expected
         if item["metric"] == "iso18571_r":
             assert sum(item["grades"].values()) == len(own)
     assert facts["references"]["fe:embedded"] == {"current": len(model["runs"]) and sum(model["runs"].values())}

@@ -32,7 +32,7 @@ def read(path: Path) -> list[dict[str, str]]:
 
 
 def test_every_table_is_there_with_units_and_marks(workspace: Workspace) -> None:
-    """Eleven CSV tables and the provenance; errors has the declared columns; what rests on a stand-in says so."""
+    """Eleven CSV tables and the provenance; errors has the declared columns; what depends on a surrogate says so."""
     assert {path.stem for path in workspace.tables.glob("*.csv")} == NAMES
     rows = read(workspace.tables / "errors.csv")
     assert tuple(rows[0]) == MetricRow.header()
@@ -50,13 +50,13 @@ def test_a_reference_thirty_per_cent_higher_leaves_the_model_23_per_cent_low(wor
     peaks = [row for row in rows if row["quantity"] == "peak_normal_force"]
     assert len(peaks) == CASES
     assert all(float(row["error"]) == pytest.approx(exact, rel=1e-5) for row in peaks)
-    assert {row["verdict"] for row in peaks} == {"inadequate"}
+    assert {row["assessment"] for row in peaks} == {"inadequate"}
     assert {row["agreement"] for row in peaks} == {"differs"}
     assert {row["passed"] for row in peaks} == {"false"}
     magnitudes = [row for row in rows if row["metric"] == "sprague_geers_m"]
     assert all(float(row["error"]) == pytest.approx(exact, rel=1e-4) for row in magnitudes)
     durations = [row for row in rows if row["quantity"] == "contact_duration"]
-    assert {row["verdict"] for row in durations} == {"adequate"}
+    assert {row["assessment"] for row in durations} == {"adequate"}
     (whole,) = [
         row
         for row in read(workspace.tables / "ensemble.csv")
@@ -87,7 +87,7 @@ def test_every_case_has_the_same_rows_whatever_its_reference(copy: Workspace) ->
         assert {row["status"] for row in mine} == {status}
         assert {row["error"] for row in mine} == {""}
         assert {row["passed"] for row in mine} == {""}
-        assert {row["verdict"] for row in mine} == {"cannot tell"}
+        assert {row["assessment"] for row in mine} == {"cannot tell"}
         assert all(row["note"] for row in mine)
     ensemble = read(copy.tables / "ensemble.csv")
     whole = [row for row in ensemble if row["group"] == "all" and row["quantity"] == "peak_normal_force"]
@@ -111,14 +111,14 @@ def test_a_spring_run_of_other_inputs_is_stale(copy: Workspace) -> None:
 def test_a_spring_run_of_other_code_or_of_none_is_never_compared(
     key: str, value: str | None, status: str, copy: Workspace
 ) -> None:
-    """Made by other code: stale. Without a digest of case or code: unbound. Neither gives a verdict."""
+    """Made by other code: stale. Without a digest of case or code: unbound. Neither gives an assessment."""
     for path in (copy.folder / "spring" / "paper").glob("*-*.csv"):
         history = History.read_csv(path)
         made = {name: text for name, text in history.provenance.items() if name != key}
         dataclasses.replace(history, provenance=made | ({} if value is None else {key: value})).write_csv(path)
     out = copy.build()
     assert {row["status"] for row in read(out / "peaks.csv") if row["source"] == "spring:paper"} == {status}
-    assert {row["verdict"] for row in read(out / "errors.csv")} == {"cannot tell"}
+    assert {row["assessment"] for row in read(out / "errors.csv")} == {"cannot tell"}
 
 
 def test_a_reference_of_other_code_is_compared_and_marked(copy: Workspace) -> None:

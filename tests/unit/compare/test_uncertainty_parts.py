@@ -62,7 +62,7 @@ def test_every_path_and_block_has_its_own(cases: tuple[Case, ...]) -> None:
 
 
 @pytest.fixture
-def ladder(tmp_path: Path, cases: tuple[Case, ...]) -> Path:
+def hierarchy(tmp_path: Path, cases: tuple[Case, ...]) -> Path:
     """A sensitivity study of one rig and one belt case: standard deviations 10 % and 20 % of the mean."""
     rows = ["run,quantity,unit,input,mean,sd"]
     rig, tyre = (next(case for case in cases if case.is_belt == kind) for kind in (False, True))
@@ -74,21 +74,21 @@ def ladder(tmp_path: Path, cases: tuple[Case, ...]) -> Path:
     return tmp_path
 
 
-def test_the_spread_of_the_inputs_is_that_of_the_sensitivity_study(ladder: Path, cases: Any) -> None:
+def test_the_spread_of_the_inputs_is_that_of_the_sensitivity_study(hierarchy: Path, cases: Any) -> None:
     """sd over mean, for rig and belt apart."""
-    assert input_spreads(ladder, cases) == {"rig": {"peak_normal_force": 0.1}, "belt": {"peak_normal_force": 0.2}}
+    assert input_spreads(hierarchy, cases) == {"rig": {"peak_normal_force": 0.1}, "belt": {"peak_normal_force": 0.2}}
 
 
-def test_a_sensitivity_study_of_other_conditions_says_nothing(ladder: Path, cases: Any, tmp_path: Path) -> None:
+def test_a_sensitivity_study_of_other_conditions_says_nothing(hierarchy: Path, cases: Any, tmp_path: Path) -> None:
     """Another digest, or no study at all: not known, rather than zero."""
     hotter = [replace(case, temperature=case.temperature + 1.0) for case in cases]
-    assert input_spreads(ladder, hotter) == {}
+    assert input_spreads(hierarchy, hotter) == {}
     assert input_spreads(tmp_path / "nothing", cases) == {}
 
 
-def test_a_damaged_sensitivity_study_is_refused(ladder: Path, cases: Any) -> None:
+def test_a_damaged_sensitivity_study_is_refused(hierarchy: Path, cases: Any) -> None:
     """A word in place of a number: file and line."""
-    path = ladder / "sobol.csv"
+    path = hierarchy / "sobol.csv"
     path.write_text(path.read_text(encoding="utf-8").replace("100.0,10.0", "100.0,many", 1), encoding="utf-8")
     with pytest.raises(InputError, match=r"sobol\.csv:2: got no mean and sd"):
-        input_spreads(ladder, cases)
+        input_spreads(hierarchy, cases)

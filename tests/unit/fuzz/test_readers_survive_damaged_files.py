@@ -1,6 +1,6 @@
 """Every reader on damaged files: a reading that makes sense or one line of refusal, never a traceback or a hang.
 
-Files are copied with one to four faults each (tests/unit/fuzz/mutations.py). What a reader accepts is held against what
+Files are copied with one to four faults each (tests/unit/fuzz/mutations.py). What is accepted is compared with what
 any such file must say: finite numbers, order, ranges. 2,000 inputs for each reader run with `make verify`, 60 here.
 """
 

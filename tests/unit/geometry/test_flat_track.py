@@ -77,7 +77,7 @@ def test_whole_face_touches_at_once_and_the_block_stands_still(case):
     np.testing.assert_allclose((up.y - down.y) / 2e-7, path.at(0.0, times).velocity_y, atol=2e-6)
 
 
-@pytest.mark.parametrize("variant", ["paper", "bonded"])
+@pytest.mark.parametrize("variant", ["paper", "shape_factor"])
 def test_elastic_block_presses_with_its_stiffness_times_depth_and_slides_about_mu(case, variant):
     """In the hold N is constant and the lumped mass swings about T = -mu N: some 25 periods, no damping.
 
@@ -94,9 +94,9 @@ def test_elastic_block_presses_with_its_stiffness_times_depth_and_slides_about_m
         assert normal.mean() == pytest.approx(10e6 * 200e-6 * 0.2 / 8.0, rel=1e-9)
 
 
-def test_coupled_face_slides_at_mu_and_is_stiffer_than_springs(case):
+def test_condensed_face_slides_at_mu_and_is_stiffer_than_springs(case):
     """T/N = 0.5 while the whole face slides, to the march's tolerance of 1e-3; N above the springs' 50 N."""
-    history = run(case, "coupled")
+    history = run(case, "condensed")
     held = (history.time > 8e-3) & (history.time < 23e-3)
     np.testing.assert_allclose(history.tangential_force[held] / history.normal_force[held], -0.5, rtol=2e-3)
     assert 50.0 < history.normal_force[held].mean() < 80.0
@@ -122,7 +122,7 @@ def test_case_file_of_a_track_says_where_every_column_is(case):
     columns, samples = document.block.columns, document.path.samples
     assert columns.x_offset_m[0] == pytest.approx(-columns.x_offset_m[-1]) == pytest.approx(10.0 * MM)
     time = np.linspace(0.0, document.expected_duration_s, 29)
-    y = np.interp(document.path.first_touch_arc_m + document.path.arc_speed_m_s * time, samples.arc_m, samples.y_m)
+    y = np.interp(document.path.first_contact_arc_m + document.path.arc_speed_m_s * time, samples.arc_m, samples.y_m)
     np.testing.assert_allclose(document.block.height_m - y, path.indentation(0.01, time), atol=1e-7)
 
 
@@ -141,7 +141,7 @@ def test_deeper_is_proportionally_harder_on_linear_springs(case):
 
 
 def test_deck_of_a_track_is_clean_and_the_engine_slides_at_mu_too(case, tmp_path):
-    """T/N = -0.2 over the hold, while all slides: 0.5 % in the mean. N within 3 % of the coupled face's.
+    """T/N = -0.2 over the hold, while all slides: 0.5 % in the mean. N within 3 % of the condensed face's.
 
     The mesh is 2 mm in the one and follows from the block in the other; both are the same elastic continuum.
     """
@@ -153,5 +153,5 @@ def test_deck_of_a_track_is_clean_and_the_engine_slides_at_mu_too(case, tmp_path
     held = (history.time > 8e-3) & (history.time < 23e-3)
     normal = history.normal_force[held].mean()
     assert history.tangential_force[held].mean() == pytest.approx(-0.2 * normal, rel=5e-3)
-    face = run(case, "coupled")
+    face = run(case, "condensed")
     assert normal == pytest.approx(np.interp(0.015, face.time, face.normal_force), rel=0.03)

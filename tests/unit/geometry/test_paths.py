@@ -79,7 +79,7 @@ def test_belt_touches_at_the_angle_of_the_paper(cases: dict[str, Case]) -> None:
     case = cases[BELT]
     path = path_of(case)
     alpha = math.acos(1.0 - 2e-4 / 0.508)
-    assert path.first_touch_arc == pytest.approx(-0.085 - 0.5 * alpha, rel=1e-9)
+    assert path.first_contact_arc == pytest.approx(-0.085 - 0.5 * alpha, rel=1e-9)
     assert path.contact_duration == pytest.approx((0.17 + 2 * 0.5 * alpha + 0.025) / 16.7, rel=1e-9)
 
 
@@ -126,7 +126,7 @@ def test_traced_patch_and_arcs_give_the_simplified_belts_contact(cases: dict[str
     )
     belt = MeasuredBelt(kind="measured_belt", origin="synthetic", source="a test", file="belt.yaml")
     case = replace(cases[BELT], path=belt, root=tmp_path)
-    assert path_of(case).first_touch_arc == pytest.approx(path_of(cases[BELT]).first_touch_arc, abs=5e-5)
+    assert path_of(case).first_contact_arc == pytest.approx(path_of(cases[BELT]).first_contact_arc, abs=5e-5)
 
 
 @pytest.mark.parametrize("interference", [0.0, -1e-4, 8e-3, 9e-3, float("nan")])
@@ -194,12 +194,12 @@ def test_missing_belt_file_is_refused(tmp_path: Path) -> None:
         read_belt_trace(tmp_path / "belt.yaml", "mid_top")
 
 
-def test_conforming_block_is_curved_as_its_path_where_it_first_touches(cases: dict[str, Case]) -> None:
+def test_conforming_block_is_curved_as_its_path_where_it_first_contacts(cases: dict[str, Case]) -> None:
     """Simplified belt: 1/R of the leading arc, exactly. Trace: the mean over the block, between its extremes."""
     simplified = path_of(cases[BELT])
     assert simplified.block_curvature() == 1.0 / 0.5
     trace = path_of(cases[TRACE])
-    arcs = trace.first_touch_arc - np.linspace(0.0, trace.columns.extent, 11)
+    arcs = trace.first_contact_arc - np.linspace(0.0, trace.columns.extent, 11)
     assert trace.line.curvature(arcs).min() < trace.block_curvature() < trace.line.curvature(arcs).max()
     assert path_of(cases[RIG]).line.ring_radius == pytest.approx(0.092, rel=1e-15)
     assert simplified.line.ring_radius is None

@@ -1,4 +1,4 @@
-"""What a compound's series is worth where it is used: band, errors, verdict, and the limit where it is refused."""
+"""What a compound's series is worth where it is used: band, errors, assessment, and the limit where it is refused."""
 
 from __future__ import annotations
 

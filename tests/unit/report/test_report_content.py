@@ -101,7 +101,7 @@ def test_where_nothing_was_compared_that_is_said_first(inputs: Any, study: Loade
     empty = replace(
         tables,
         ensemble=tuple(replace(row, **blank, compared=0, status="missing") for row in tables.ensemble),
-        errors=tuple(replace(row, error=None, verdict="cannot tell") for row in tables.errors),
+        errors=tuple(replace(row, error=None, assessment="cannot tell") for row in tables.errors),
     )
     screen = first_screen(empty, marks, models_table(empty, study, Costs({}), marks), None, None)
     assert screen.alarm.startswith("Nothing could be compared")
@@ -142,7 +142,7 @@ def test_claim_without_a_value_shows_a_dash_and_its_reason(tables: Tables, marks
 
 
 def test_report_without_a_check_says_so(marks: Marks) -> None:
-    """Exact: no delta table, no verdict in the summary."""
+    """Exact: no delta table, no assessment in the summary."""
     section, moved = baseline_section(None, marks)
     assert moved is None
     assert "No check against a baseline was made" in section.items[0].text  # type: ignore[union-attr]
@@ -153,12 +153,12 @@ MOVED = Delta(
     0.1, 0.01, 10.0, False, "",
 )  # fmt: skip
 FLIP = replace(
-    MOVED, outcome="changed", kind="flip", in_table="errors", in_column="verdict", unit="", baseline="agrees",
+    MOVED, outcome="changed", kind="flip", in_table="errors", in_column="assessment", unit="", baseline="agrees",
     current="disagrees", change=None, times_noise=None,
 )  # fmt: skip
 
 
-def test_a_flipped_verdict_stands_before_what_moved(tmp_path: Path, marks: Marks) -> None:
+def test_a_flipped_assessment_stands_before_what_moved(tmp_path: Path, marks: Marks) -> None:
     """Exact: the table of `check` is shown in its order, grouped by what happened; the sentence counts flips first."""
     path = tmp_path / "delta.csv"
     path.write_text(rows_text(Delta, [FLIP, MOVED]), encoding="utf-8")

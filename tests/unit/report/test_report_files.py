@@ -163,8 +163,8 @@ def test_table_without_a_column_is_wrong_input(inputs: Any, tmp_path: Path) -> N
     """Exact: exit code 2, file and column in one line."""
     broken = shutil.copytree(inputs.tables, tmp_path / "tables")
     text = (broken / "errors.csv").read_text(encoding="utf-8")
-    (broken / "errors.csv").write_text(text.replace("verdict", "vredict", 1), encoding="utf-8")
-    with pytest.raises(InputError, match=r"errors\.csv:1: got no column verdict"):
+    (broken / "errors.csv").write_text(text.replace("assessment", "vredict", 1), encoding="utf-8")
+    with pytest.raises(InputError, match=r"errors\.csv:1: got no column assessment"):
         build_report(inputs.study, broken, inputs.spring, inputs.reference, inputs.decks, tmp_path / "out")
 
 

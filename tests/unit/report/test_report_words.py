@@ -1,4 +1,4 @@
-"""Numbers, units, verdicts and marks in words."""
+"""Numbers, units, assessments and marks in words."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ def test_error_is_written_as_its_type_asks() -> None:
     assert wording.error(-1e-9, "relative") == "0.0\u00a0%"
 
 
-def test_verdict_carries_a_symbol_beside_its_colour() -> None:
-    """Exact: the three verdicts have three symbols; an unknown word is shown as it is."""
-    assert [wording.verdict(v) for v in ("agrees", "disagrees", "cannot tell")] == [
+def test_assessment_carries_a_symbol_beside_its_colour() -> None:
+    """Exact: the three assessments have three symbols; an unknown word is shown as it is."""
+    assert [wording.assessment(v) for v in ("agrees", "disagrees", "cannot tell")] == [
         "✓ agrees",
         "✗ disagrees",
         "? cannot tell",
     ]
-    assert wording.verdict("perhaps") == "perhaps"
+    assert wording.assessment("perhaps") == "perhaps"
 
 
 def test_marks_follow_the_list_of_assumptions() -> None:

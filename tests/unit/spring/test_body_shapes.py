@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tread_validate.errors import InputError
-from tread_validate.spring.coupled.body import BodySettings, FreeShape, make_body
-from tread_validate.spring.coupled.condense import condense
+from tread_validate.spring.condensed.body import BodySettings, FreeShape, make_body
+from tread_validate.spring.condensed.condense import condense
 from tread_validate.spring.stiffness import static_ratios
 from tread_validate.study import Block
 

@@ -21,7 +21,7 @@ def belt(cases):
 
 
 def test_the_papers_cases_need_no_caution(cases):
-    assert all(cautions(case, variant) == () for case in cases for variant in ("paper", "coupled"))
+    assert all(cautions(case, variant) == () for case in cases for variant in ("paper", "condensed"))
 
 
 def coulomb(kinetic, static):
@@ -41,17 +41,17 @@ def test_each_limit_is_said_where_it_is_passed(belt):
         (changed(belt, edge_radius_mm=5.0), "path radius 5 mm"),
         (replace(belt, speed=60.0), "shear wave"),
     ):
-        assert any(said in line for line in cautions(case, "coupled")), said
+        assert any(said in line for line in cautions(case, "condensed")), said
     assert "lumped mass" in cautions(replace(belt, speed=60.0), "paper")[0]
 
 
 def test_sliding_where_friction_falls_has_no_reliable_history(belt):
     """3 % at 30 m/s is 0.9 m/s of slip: on the falling branch of the study's law. Constant friction is reliable."""
     fast = replace(belt, creep_ratio=0.03, speed=30.0)
-    assert any("no reliable history" in line for line in cautions(fast, "coupled"))
-    assert not any("no reliable" in line for line in cautions(replace(fast, friction=coulomb(0.6, 0.6)), "coupled"))
+    assert any("no reliable history" in line for line in cautions(fast, "condensed"))
+    assert not any("no reliable" in line for line in cautions(replace(fast, friction=coulomb(0.6, 0.6)), "condensed"))
     shallow = replace(belt, interference=0.05e-3, temperature=-10.0, speed=3.0)  # slips at 9 mm/s: 0.9 drops to 0.7
-    assert any("no reliable history" in line for line in cautions(shallow, "coupled"))
+    assert any("no reliable history" in line for line in cautions(shallow, "condensed"))
     dropping = replace(belt, creep_ratio=0.03, friction=coulomb(0.48, 0.9))
     assert any("no reliable" in line for line in cautions(dropping, "paper"))
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tread_validate.source_code import modules_of
-from tread_validate.spring.coupled import kept as store
-from tread_validate.spring.coupled.roll import roll
-from tread_validate.spring.coupled.store import converged_ratios, ready
+from tread_validate.spring.condensed import kept as store
+from tread_validate.spring.condensed.roll import roll
+from tread_validate.spring.condensed.store import converged_ratios, ready
 from tread_validate.study import load_study
 
 ARRAYS = {"one": np.arange(6.0).reshape(2, 3), "two": np.float32([1, 2, 3])}
@@ -74,9 +74,14 @@ def test_a_kept_face_gives_the_forces_of_a_new_one(own_cache, paper_study):
 
 
 def test_all_code_that_makes_the_arrays_is_in_their_key():
-    """Every module of the spring package that `store` rests on, by the import graph."""
-    here = "spring.coupled."
+    """Every module of the spring package that `store` depends on, by the import graph."""
+    here = "spring.condensed."
     listed = {name.removesuffix(".py") for name in store.SOURCES}
     listed = {"spring.stiffness" if "stiffness" in name else here + name for name in listed if "units" not in name}
-    needed = {name for name in modules_of(["spring.coupled.store"]) if name.startswith("spring.") and " " not in name}
-    assert needed - listed <= {"spring.coupled.kept", "spring.inputs", "spring.coupled.contact", "spring.coupled.step"}
+    needed = {name for name in modules_of(["spring.condensed.store"]) if name.startswith("spring.") and " " not in name}
+    assert needed - listed <= {
+        "spring.condensed.kept",
+        "spring.inputs",
+        "spring.condensed.contact",
+        "spring.condensed.step",
+    }

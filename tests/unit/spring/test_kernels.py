@@ -12,7 +12,7 @@ from scipy.integrate import quad
 
 from tread_validate.geometry import path_of
 from tread_validate.spring.block_pass import prepare
-from tread_validate.spring.kinematics import foot, sliding, sticking
+from tread_validate.spring.kinematics import mount_point, sliding, sticking
 from tread_validate.spring.memory import moments
 from tread_validate.study import Case
 
@@ -33,14 +33,14 @@ def test_moments_of_the_fading_weight(x: float) -> None:
 
 
 @pytest.mark.parametrize("case_id", CASES)
-def test_compiled_foot_is_the_mount_line_of_the_geometry(cases: dict[str, Case], case_id: str) -> None:
+def test_compiled_mount_point_is_the_mount_line_of_the_geometry(cases: dict[str, Case], case_id: str) -> None:
     """Two codes for one line, over and beyond its whole length: 1e-13 m, round-off."""
     path = path_of(cases[case_id])
     motion = prepare(cases[case_id]).motion(0.001)
     reach = 0.25 if not path.road.is_plane or path.line.code == 0 else 0.4
     for arc in np.linspace(-reach, reach, 401):
         x, y, theta = path.line.mount(arc)
-        found = foot(motion, float(arc))
+        found = mount_point(motion, float(arc))
         assert found[:2] == pytest.approx((float(x), float(y)), abs=1e-13)
         assert found[2:4] == pytest.approx((math.sin(theta), math.cos(theta)), abs=1e-12)
         turn = cases[case_id].speed * float(path.line.curvature(arc))
@@ -55,14 +55,14 @@ def test_sticking_and_sliding_agree_on_a_contact_point(cases: dict[str, Case], c
     Sliding at lambda's sticking rate is sticking: d delta/dt = slope lambda' + drift must match.
     """
     motion = prepare(cases[case_id]).motion(0.004)
-    at = foot(motion, place)
+    at = mount_point(motion, place)
     c = place + 1e-4 if motion.road_curvature == 0.0 else (place + 1e-4) * motion.road_curvature
-    delta, lag, delta_rate, lag_rate = sticking(motion, at, c)
-    found_delta, found_c, stick_rate, slope, drift = sliding(motion, at, lag)
+    delta, deflection, delta_rate, deflection_rate = sticking(motion, at, c)
+    found_delta, found_c, stick_rate, slope, drift = sliding(motion, at, deflection)
     assert found_delta == pytest.approx(delta, abs=1e-15)
     assert found_c == pytest.approx(c, abs=1e-14)
-    assert stick_rate == pytest.approx(lag_rate, abs=1e-12)
-    assert slope * lag_rate + drift == pytest.approx(delta_rate, abs=1e-12)
+    assert stick_rate == pytest.approx(deflection_rate, abs=1e-12)
+    assert slope * deflection_rate + drift == pytest.approx(delta_rate, abs=1e-12)
     step = 1e-7
-    shifted = sliding(motion, at, lag + step)[0] - sliding(motion, at, lag - step)[0]
+    shifted = sliding(motion, at, deflection + step)[0] - sliding(motion, at, deflection - step)[0]
     assert slope == pytest.approx(shifted / (2 * step), abs=1e-6)

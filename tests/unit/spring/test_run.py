@@ -37,7 +37,7 @@ def test_history_says_what_made_it(cases: dict[str, Case]) -> None:
 
 
 def test_clock_is_uniform_from_zero_and_fine(cases: dict[str, Case]) -> None:
-    """t = 0 is the first touch; samples are 20 us apart or a 1500th of a slow pass; forces start and end at zero."""
+    """t = 0 is the first contact; samples are 20 us apart or a 1500th of a slow pass; forces start and end at zero."""
     history = run(cases[BELT])
     steps = np.diff(history.time)
     assert history.time[0] == 0.0

@@ -103,8 +103,8 @@ def kills(folder: Folder, count: int, rng: random.Random) -> None:
         folder.finish()
         equal = folder.digests() == expected
         same += equal
-        verdict = "same" if equal else "DIFFERENT"
-        print(f"kill {killed}: at {moment:.1f} of {whole:.0f} s; {verdict}; {left} temporary file(s)", flush=True)
+        assessment = "same" if equal else "DIFFERENT"
+        print(f"kill {killed}: at {moment:.1f} of {whole:.0f} s; {assessment}; {left} temporary file(s)", flush=True)
     print(f"kills: {same} of {count} gave the same tables and page", flush=True)
     if same != count:
         raise SystemExit(1)

@@ -15,11 +15,11 @@ Holds = Callable[[str, Cells], bool]
 BROKEN = ("stale", "not_a_reference", "other_code", "unbound", "corrupt")
 SLACK = 1e-9
 
-# the coupled springs stop iterating within a tolerance, and another processor ends elsewhere in it: measured, up to 1.8
+# the condensed face stop iterating within a tolerance, and another processor ends elsewhere in it: measured, up to 1.8
 # times the noise of the others between an AVX-512 machine and one without AVX; the others did not move a digit
-ITERATIVE, ITERATIVE_FACTOR = "spring:coupled", 5.0
+ITERATIVE, ITERATIVE_FACTOR = "spring:condensed", 5.0
 
-VERDICTS = ("verdict", "agreement", "passed", "significant", "grade", "target_met")
+ASSESSMENTS = ("assessment", "agreement", "passed", "significant", "grade", "target_met")
 RULES = (
     "tolerance", "criterion", "uncertainty", "u_numerical", "u_input", "u_data", "ci_level", "error_type",
     "spread_kind", "published", "published_low", "published_high",
@@ -30,7 +30,7 @@ OUTCOMES = {"stale": 0, "missing": 1, "new": 2, "changed": 3, "moved": 4, "withi
 
 @dataclass(frozen=True)
 class Check:
-    """What became of the baseline: how many rows were held against it, and every cell that is not what it was."""
+    """What became of the baseline: how many rows were compared with it, and every cell that is not what it was."""
 
     rows: int
     deltas: tuple[Delta, ...]
@@ -42,7 +42,7 @@ class Check:
 
     @property
     def flips(self) -> tuple[Delta, ...]:
-        """The verdicts that are not what they were."""
+        """The assessments that are not what they were."""
         return tuple(delta for delta in self.failed if delta.kind == "flip")
 
 
@@ -51,7 +51,7 @@ def check_tables(baseline: Baseline, folder: Path | str, holds: Holds | None = N
 
     `holds` says of a table's name and a row's cells whether the row counts, on both sides.
 
-    Flipped verdicts come first, then the rules they rest on, inputs, runs that moved, and what follows from those; in
+    Flipped assessments come first, then the rules they depend on, inputs, runs that moved, what follows from those; in
     each the furthest out first. Raises `InputError` for a table that is missing or damaged.
     """
     place = Path(folder)
@@ -126,7 +126,7 @@ def _factor(row: Row) -> float:
 
 
 def _kind(table: str, column: str) -> str:
-    if column in VERDICTS:
+    if column in ASSESSMENTS:
         return "flip"
     if column in RULES:
         return "rule"

@@ -15,7 +15,7 @@ from .store import Acceptance
 FLIPS_SHOWN, ROWS_SHOWN, MODELS_SHOWN = 8, 10, 16
 XML_ILLEGAL = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 KINDS = {
-    "flip": "verdict flipped",
+    "flip": "assessment flipped",
     "rule": "rule changed",
     "input": "input changed",
     "run": "moved",
@@ -29,11 +29,11 @@ def delta_csv(check: Check) -> str:
 
 
 def summary(check: Check) -> str:
-    """Return one sentence on the outcome, flipped verdicts first."""
+    """Return one sentence on the outcome, flipped assessments first."""
     failed = check.failed
     if not failed:
         return f"{check.rows} rows, all within noise of the baseline ({len(check.deltas)} numbers moved at all)"
-    flips = f"{len(check.flips)} verdicts flipped; " if check.flips else ""
+    flips = f"{len(check.flips)} assessments flipped; " if check.flips else ""
     counts = Counter(KINDS[row.kind] for row in failed if row.kind != "flip")
     listed = ", ".join(f"{count} {kind}" for kind, count in counts.items())
     rows = len({(row.in_table, row.row_key) for row in failed})
@@ -55,12 +55,12 @@ def delta_markdown(check: Check, acceptance: Acceptance, movements: Sequence[Mov
     ]
     flips = check.flips
     if flips:
-        lines += ["", "| verdict of | was | is |", "|---|---|---|"]
+        lines += ["", "| assessment of | was | is |", "|---|---|---|"]
         lines += [
             f"| {_escaped(row.name)} | {_escaped(row.baseline)} | {_escaped(row.current)} |"
             for row in flips[:FLIPS_SHOWN]
         ]
-        lines += _more(flips, FLIPS_SHOWN, "verdicts")
+        lines += _more(flips, FLIPS_SHOWN, "assessments")
     moved = [item for item in movements if item.better or item.worse]
     if moved:
         lines += [
@@ -79,14 +79,14 @@ def delta_markdown(check: Check, acceptance: Acceptance, movements: Sequence[Mov
 
 
 def delta_junit(check: Check, groups: Sequence[tuple[str, str]]) -> str:
-    """Return JUnit XML: a suite of verdicts, a suite of numbers, a test case for each of `groups`, (table, source).
+    """Return JUnit XML: a suite of assessments, a suite of numbers, a test case for each of `groups`, (table, source).
 
     The names of the test cases are the same from run to run, so that a CI system can follow them.
     """
     root = ET.Element("testsuites", name="tread-validate check")
     every = [*dict.fromkeys([*groups, *((row.in_table, row.source) for row in check.failed)])]
     failures = 0
-    for title, of_flips in (("verdicts", True), ("numbers", False)):
+    for title, of_flips in (("assessments", True), ("numbers", False)):
         suite = ET.SubElement(root, "testsuite", name=title, tests=str(len(every)))
         broken = 0
         for table, source in every:
@@ -95,7 +95,7 @@ def delta_junit(check: Check, groups: Sequence[tuple[str, str]]) -> str:
             own = [row for row in own if (row.kind == "flip") == of_flips]
             if own:
                 broken += 1
-                words = f"{len(own)} {'verdicts flipped' if of_flips else 'cells'}, first {own[0].name}"
+                words = f"{len(own)} {'assessments flipped' if of_flips else 'cells'}, first {own[0].name}"
                 failure = ET.SubElement(case, "failure", type=own[0].outcome, message=_legal(words))
                 failure.text = _legal("\n".join(_line(row) for row in own[:50]))
         suite.set("failures", str(broken))

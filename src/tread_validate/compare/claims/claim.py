@@ -9,11 +9,11 @@ from ...reference import PublishedValue
 from ...study import Case, LoadedStudy
 from ..regression.coefficients import interval
 from ..runs import Runs, SourceRun
-from ..tables import ClaimVerdict, Coefficient, Difference
+from ..tables import ClaimAssessment, Coefficient, Difference
 
-AGREES: ClaimVerdict = "agrees"
-DISAGREES: ClaimVerdict = "disagrees"
-CANNOT_TELL: ClaimVerdict = "cannot tell"
+AGREES: ClaimAssessment = "agrees"
+DISAGREES: ClaimAssessment = "disagrees"
+CANNOT_TELL: ClaimAssessment = "cannot tell"
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Computed:
         None where it cannot be computed; `note` then says why and `status` how it came about.
     case_ids : tuple of str
         The runs behind it.
-    verdict : str or None
+    assessment : str or None
         Where a test of its own has judged it (Table 1); else the published interval decides.
     """
 
@@ -35,7 +35,7 @@ class Computed:
     status: str = "current"
     note: str = ""
     assumed: tuple[str, ...] = ()
-    verdict: ClaimVerdict | None = None
+    assessment: ClaimAssessment | None = None
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Claim:
     """One published number next to one computed number.
 
     `kind` says what agreement would be worth: ``input``, the study uses the number; ``study``, it follows from the
-    study's inputs without a run; ``tuned``, a stand-in was made to meet it; ``model``, a run or a regression of runs
+    study's inputs without a run; ``tuned``, a surrogate was made to meet it; ``model``, a run or a regression of runs
     gives it; ``published``, arithmetic on printed numbers; ``context``, not compared.
     """
 
@@ -55,7 +55,7 @@ class Claim:
     high: float | None
     error: float | None
     error_type: str
-    verdict: ClaimVerdict
+    assessment: ClaimAssessment
     note: str
 
 
@@ -147,7 +147,7 @@ def is_measured(case: Case) -> bool:
 def judge(published: PublishedValue, kind: str, source: str, computed: Computed) -> Claim:
     """Compare a computed value with what the published one stands for.
 
-    The published interval decides, unless the computed value brings a verdict. ``exists`` asks for more than the lower
+    The published interval decides, unless the value brings an assessment. ``exists`` asks for more than the lower
     bound. A value without an interval has to be met to four digits.
     """
     low, high, note = interval(published)
@@ -156,8 +156,8 @@ def judge(published: PublishedValue, kind: str, source: str, computed: Computed)
     note = "; ".join(part for part in (computed.note, note) if part)
     if value is None:
         return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)
-    if computed.verdict is not None:
-        return Claim(published, kind, source, computed, low, high, error, error_type, computed.verdict, note)
+    if computed.assessment is not None:
+        return Claim(published, kind, source, computed, low, high, error, error_type, computed.assessment, note)
     if low is None or high is None:
         if target is None:
             return Claim(published, kind, source, computed, low, high, error, error_type, CANNOT_TELL, note)

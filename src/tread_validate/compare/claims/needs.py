@@ -1,4 +1,4 @@
-"""Which inputs a published statement rests on: it is judged only where the study has the paper's."""
+"""Which inputs a published statement depends on: it is judged only where the study has the paper's."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ PRINTED = ("typical_",)  # arithmetic on printed numbers alone
 
 
 def needs(claim_id: str) -> tuple[str, ...]:
-    """Return the published inputs that a statement rests on, by their own names; none for an input itself."""
+    """Return the published inputs that a statement depends on, by their own names; none for an input itself."""
     if claim_id in INPUTS or claim_id.startswith(PRINTED):
         return ()
     return NEEDS.get(claim_id) or (RIG if claim_id.startswith(RIG_STATEMENTS) else BELT)
@@ -55,7 +55,7 @@ def differing_inputs(evidence: Evidence, claim_id: str) -> tuple[str, ...]:
             if computed.status == "undefined":
                 found.append(f"{published.quantity}: {computed.note}")
             continue
-        if judge(published, "input", "study", computed).verdict != AGREES:
+        if judge(published, "input", "study", computed).assessment != AGREES:
             printed = published.value if published.value is not None else published.low
             found.append(f"{published.quantity} {computed.value:g}, published {printed:g} {published.unit}")
     return tuple(found)

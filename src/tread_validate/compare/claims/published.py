@@ -1,4 +1,4 @@
-"""Every published number with its computed counterpart and a verdict, or the reason why there is none."""
+"""Every published number with its computed counterpart and an assessment, or the reason why there is none."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from ...units import IN_MM, IN_MPA
 from ..quantities import contact_window
 from ..regression.line import EXCLUDED_INTERFERENCES
 from ..runs import SourceRun
-from ..tables import ClaimVerdict
+from ..tables import ClaimAssessment
 from .claim import AGREES, CANNOT_TELL, DISAGREES, Compute, Computed, Evidence, nothing
 
 SHAPES = ("rectangle", "parallelogram")
@@ -183,15 +183,15 @@ def _table1(name: str, shape: str, origin: str) -> Compute:
         found = evidence.difference(shape, name, f"{origin}:published", source)
         if found is None or found.ci_low is None or found.ci_high is None or found.p_value is None:
             note = "no test of the difference" if found is None else found.note
-            return Computed(100.0 * row.value, note=note, assumed=assumed, verdict=CANNOT_TELL)
-        verdict: ClaimVerdict = CANNOT_TELL
+            return Computed(100.0 * row.value, note=note, assumed=assumed, assessment=CANNOT_TELL)
+        assessment: ClaimAssessment = CANNOT_TELL
         if found.significant:
-            verdict = DISAGREES
+            assessment = DISAGREES
         elif found.ci_low <= 0.0 <= found.ci_high and 0.5 * (found.ci_high - found.ci_low) <= abs(printed.value):
-            verdict = AGREES
+            assessment = AGREES
         note = f"Welch test of the difference: p = {found.p_value:.2g} taken alone, {found.p_holm:.2g} as one of "
         note += f"{found.tests} (Holm); 95 % interval {100 * found.ci_low:.2g} to {100 * found.ci_high:.2g}"
-        return Computed(100.0 * row.value, note=note, assumed=assumed, verdict=verdict)
+        return Computed(100.0 * row.value, note=note, assumed=assumed, assessment=assessment)
 
     return compute
 

@@ -22,10 +22,10 @@ GOOD = "the standard's grade `good`"
 SCALARS = (
     Quantity("peak_normal_force", "N", "Peak normal force", "N_max", of.peak_normal, of.as_force,
              Noise(RELATIVE, 5e-5), "itself", FORCE_TOLERANCE, PAPER),
-    Quantity("peak_positive_tangential_force", "N", "Peak T towards leading edge", "T_max", of.peak_positive,
+    Quantity("peak_positive_tangential_force", "N", "Peak longitudinal force, leading edge", "T_max", of.peak_positive,
              of.as_force, Noise(RELATIVE, 5e-4), "itself", FORCE_TOLERANCE, SMALL, floor=SMALL_FORCE,
              needs="tangential"),
-    Quantity("peak_negative_tangential_force", "N", "Peak T towards trailing edge", "T_min", of.peak_negative,
+    Quantity("peak_negative_tangential_force", "N", "Peak longitudinal force, trailing edge", "T_min", of.peak_negative,
              of.as_force, Noise(RELATIVE, 5e-4), "itself", FORCE_TOLERANCE, SMALL, floor=SMALL_FORCE,
              needs="tangential"),
     Quantity("normal_impulse", "N s", "Normal impulse", "J_N", of.normal_impulse, of.as_force,

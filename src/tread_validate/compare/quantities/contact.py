@@ -22,7 +22,7 @@ class Contact:
     Attributes
     ----------
     history : History
-        The whole pass, on the clock whose zero is the first touch.
+        The whole pass, on the clock whose zero is the first contact.
     start, end : float, s
         Passages of N through 1 % of its peak.
     time : (n,) array, s

@@ -48,7 +48,7 @@ def duration(contact: Contact) -> float:
 
 
 def time_of_peak(contact: Contact) -> float:
-    """Return when N is largest, s, on the history's clock (t = 0 at first touch)."""
+    """Return when N is largest, s, on the history's clock (t = 0 at first contact)."""
     return float(contact.history.time[int(np.argmax(contact.history.normal_force))])
 
 

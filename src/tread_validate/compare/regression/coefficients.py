@@ -40,7 +40,7 @@ def published_coefficients(published: Mapping[str, PublishedValue]) -> tuple[Coe
 
 
 def interval(published: PublishedValue) -> tuple[float | None, float | None, str]:
-    """Return the interval that a computed value is held against, and a word on it."""
+    """Return the interval that a computed value is compared with, and a word on it."""
     low, high, value = published.low, published.high, published.value
     if published.section.endswith("Table 1") and value is not None and low is not None and high is not None:
         if published.spread_kind == "sd":

@@ -11,10 +11,10 @@ from ..quantities import HISTORIES, HISTORY_METRICS, SCALARS, Quantity, Scalars,
 from ..quantities import tolerances as default_tolerances
 from ..tables import MetricRow
 from .align import Pair, align, window
+from .assessment import CANNOT_TELL, UNKNOWN, Parts, agreement, assessment
 from .history_rows import NOT_GIVEN, history_rows, metric_unit, not_given_rows
 from .iso18571 import SAMPLES as ISO_SAMPLES
 from .uncertainty import Names, Uncertainties, Uncertainty
-from .verdict import CANNOT_TELL, UNKNOWN, Parts, agreement, verdict
 
 THOUSAND = (500.0, 2000.0)
 MIRRORED = -0.9
@@ -39,7 +39,7 @@ def compare(
     Parameters
     ----------
     reference, predicted : History
-        Both on the clock whose zero is the first touch; nothing is shifted.
+        Both on the clock whose zero is the first contact; nothing is shifted.
     uncertainty, numerical, inputs : float, mapping or None
         Standard uncertainties: of the reference's forces, of the prediction's from its mesh and step, and of the
         difference from inputs that the two do not share. Relative, for all forces or by quantity name; None where not
@@ -181,7 +181,7 @@ def scalar_row(
     return MetricRow(
         names[0], quantity.name, "scalar", names[1], names[2], reference, predicted, quantity.unit, error,
         quantity.error_type, parts.numerical, parts.inputs, parts.data, parts.expanded, tolerance, own.criterion,
-        abs(error) <= tolerance, agreement(error, parts.expanded), verdict(error, tolerance, parts.expanded),
+        abs(error) <= tolerance, agreement(error, parts.expanded), assessment(error, tolerance, parts.expanded),
     )  # fmt: skip
 
 

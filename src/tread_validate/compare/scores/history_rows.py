@@ -1,4 +1,4 @@
-"""The rows of one force history: RMS, Sprague-Geers and ISO/TS 18571, each with its uncertainty and verdict."""
+"""The rows of one force history: RMS, Sprague-Geers and ISO/TS 18571, each with its uncertainty and assessment."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from ...errors import InputError
 from ..quantities import HISTORY_METRIC, HISTORY_METRICS, ErrorType, HistoryMetric, Tolerances
 from ..tables import MetricRow
 from .align import Pair
+from .assessment import CANNOT_TELL, Parts, agreement, assessment
 from .iso18571 import IsoRating, grade, iso18571
 from .metrics import sprague_geers
 from .uncertainty import Names, Uncertainties
-from .verdict import CANNOT_TELL, Parts, agreement, verdict
 
 TANGENTIAL = "tangential_force"
 NOT_GIVEN = "one of the two does not give it"
@@ -70,7 +70,7 @@ def history_rows(
                 names[0], quantity, metric.name, names[1], names[2], score.reference, score.predicted,
                 metric_unit(metric), size, score.error_type, parts.numerical, parts.inputs, parts.data, parts.expanded,
                 score.tolerance, judged[metric.name].criterion, abs(size) <= score.tolerance,
-                agreement(size, parts.expanded), verdict(size, score.tolerance, parts.expanded), grade=score.grade,
+                agreement(size, parts.expanded), assessment(size, score.tolerance, parts.expanded), grade=score.grade,
             )
         )  # fmt: skip
     return rows

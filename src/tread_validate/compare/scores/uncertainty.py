@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..quantities import Quantity, Scalars
-from .verdict import Parts
+from .assessment import Parts
 
 Uncertainty = float | Mapping[str, float] | None
 Names = tuple[str, str, str]

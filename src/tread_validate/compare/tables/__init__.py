@@ -6,17 +6,42 @@ there.
 
 from .catalogue import TABLES
 from .delta import Delta, Outcome, TrendRow
-from .errors import Agreement, Ensemble, MetricRow, Sensitivity, ToleranceRow, Verdict
+from .errors import Agreement, Assessment, Ensemble, MetricRow, Sensitivity, ToleranceRow
 from .package import write_package
 from .row import Column, Row, column
 from .runs import AssumedRow, CaseRow, PeakRow
 from .slopes import Coefficient, Difference, Residual
-from .statements import ClaimRow, ClaimVerdict, PublishedRow
+from .statements import ClaimAssessment, ClaimRow, PublishedRow
 from .text import cell, read_rows, rows_text, table_text, write_rows, write_table
 
 __all__ = [
-    "TABLES", "Agreement", "AssumedRow", "CaseRow", "ClaimRow", "ClaimVerdict", "Coefficient", "Column", "Delta",
-    "Difference", "Ensemble", "MetricRow", "Outcome", "PeakRow", "PublishedRow", "Residual", "Row", "Sensitivity",
-    "ToleranceRow", "TrendRow", "Verdict", "cell", "column", "read_rows", "rows_text", "table_text", "write_package",
-    "write_rows", "write_table",
+    "TABLES",
+    "Agreement",
+    "Assessment",
+    "AssumedRow",
+    "CaseRow",
+    "ClaimAssessment",
+    "ClaimRow",
+    "Coefficient",
+    "Column",
+    "Delta",
+    "Difference",
+    "Ensemble",
+    "MetricRow",
+    "Outcome",
+    "PeakRow",
+    "PublishedRow",
+    "Residual",
+    "Row",
+    "Sensitivity",
+    "ToleranceRow",
+    "TrendRow",
+    "cell",
+    "column",
+    "read_rows",
+    "rows_text",
+    "table_text",
+    "write_package",
+    "write_rows",
+    "write_table",
 ]  # fmt: skip

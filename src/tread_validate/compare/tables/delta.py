@@ -27,7 +27,7 @@ class Delta(Row):
         "or reference that is not current; `changed`: another word"
     )
     kind: str = column(
-        "`flip`: a verdict; `rule`: what verdicts rest on (tolerance, noise, published value); `input`; `run`: a "
+        "`flip`: an assessment; `rule`: what they depend on (tolerance, noise, published value); `input`; `run`: a "
         "scalar of a run; `consequence`: what is computed from runs"
     )
     in_table: str = column("table of the results")

@@ -9,7 +9,7 @@ from ..quantities import HISTORY_METRIC, SCALAR, ErrorType, Noise
 from .row import Column, Row, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
-Verdict = Literal["adequate", "inadequate", "cannot tell"]
+Assessment = Literal["adequate", "inadequate", "cannot tell"]
 Agreement = Literal["agrees", "differs", "cannot tell"]
 SCATTER = Noise(1e-3, 1e-4)
 PART = Noise(1e-4, 1e-6)  # of an uncertainty
@@ -38,7 +38,7 @@ class ToleranceRow(Row):
 class MetricRow(Row):
     r"""One declared comparison.
 
-    `agreement` and `verdict` answer two questions, after ASME V&V 20, with U = 2 u_val and u_val^2 the sum of the
+    `agreement` and `assessment` answer two questions, after ASME V&V 20, with U = 2 u_val and u_val^2 the sum of the
     squares of the three uncertainties. Does the model agree with the reference: \|E\| <= U? Is it good enough for what
     the study is for: \|E\| + U <= tolerance (and not so where \|E\| - U > tolerance)? Where a part of u_val is not
     known, nothing can be told.
@@ -72,7 +72,9 @@ class MetricRow(Row):
     criterion: str = column("what the tolerance is, in words")
     passed: bool | None = column("whether |E| <= tolerance, uncertainty apart; empty without an error")
     agreement: Agreement = column("`agrees`: |E| <= U; `differs`; `cannot tell`")
-    verdict: Verdict = column("`adequate`: |E| + U <= tolerance; `inadequate`: |E| - U > tolerance; `cannot tell`")
+    assessment: Assessment = column(
+        "`adequate`: |E| + U <= tolerance; `inadequate`: |E| - U > tolerance; `cannot tell`"
+    )
     status: str = column(STATUS, default="current")
     note: str = column(NOTE, default="", free=True)
     assumed: str = column(ASSUMED, default="")
@@ -100,7 +102,7 @@ class MetricRow(Row):
         )
 
     def marked(self, assumed: str) -> MetricRow:
-        """Return the row with the assumed and synthetic inputs it rests on."""
+        """Return the row with the assumed and synthetic inputs it depends on."""
         return replace(self, assumed=assumed)
 
     def hinted(self, hint: str) -> MetricRow:
@@ -126,8 +128,8 @@ class Ensemble(Row):
     cases: int = column("cases of the group")
     compared: int = column("cases with an error")
     passed: int = column("cases whose |E| is within its tolerance, uncertainty apart")
-    adequate: int = column("cases whose verdict is `adequate`")
-    inadequate: int = column("cases whose verdict is `inadequate`")
+    adequate: int = column("cases whose assessment is `adequate`")
+    inadequate: int = column("cases whose assessment is `inadequate`")
     agrees: int = column("cases whose |E| is within its uncertainty")
     criterion: str = column("what the tolerance is, in words")
     mean_uncertainty: float | None = column("mean of U over the cases where it is known", noise=PART)

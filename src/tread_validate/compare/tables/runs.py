@@ -1,4 +1,4 @@
-"""Rows of the runs: what was asked, what came out, and what it rests on."""
+"""Rows of the runs: what was asked, what came out, and what it depends on."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ..quantities import SCALARS, Noise
 from .row import Column, Row, column, spread, table_row
 
-ASSUMED = "assumed and synthetic inputs that the row rests on, `; ` between them"
+ASSUMED = "assumed and synthetic inputs that the row depends on, `; ` between them"
 SOURCE = "who made the run: `spring:<variant>`, `fe:<engine>`, `rig:measured`, `<kind>:published`"
 STATUS = (
     "`current`, `other_code` (a reference made before its engine's code changed), `missing`, `stale`, `unbound`, "
@@ -89,7 +89,7 @@ class AssumedRow(Row):
     """An input that is assumed or synthetic."""
 
     table = "assumed"
-    title = "Assumed and synthetic inputs, and how many cases rest on each"
+    title = "Assumed and synthetic inputs, and how many cases depend on each"
     key = ("input", "origin")
 
     input: str = column("the input")

@@ -8,7 +8,7 @@ from ..quantities import Noise
 from .row import Column, Row, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
-ClaimVerdict = Literal["agrees", "disagrees", "cannot tell"]
+ClaimAssessment = Literal["agrees", "disagrees", "cannot tell"]
 OF_SAMPLES = ("rig_peak_at_centre", "belt_slip_at_exit")  # read off at one sample of a history
 SPREAD_KIND = "what the interval is: sd, range, rounding, last digit, about, sign, exact, exists, grade or none"
 
@@ -24,7 +24,7 @@ class ClaimRow(Row):
     claim_id: str = column("name of the statement")
     kind: str = column(
         "what agreement would be worth: `input`, the study uses the number; `study`, it follows from the inputs; "
-        "`tuned`, a stand-in was made to meet it; `model`, runs give it; `published`, arithmetic on printed numbers; "
+        "`tuned`, a surrogate was made to meet it; `model`, runs give it; `published`, arithmetic on printed numbers; "
         "`context`, not compared"
     )
     section: str = column("section of the paper")
@@ -40,7 +40,7 @@ class ClaimRow(Row):
     computed: float | None = column("the computed value, in `unit`", noise=Noise(1e-4, 1e-6))
     error: float | None = column("of the computed value, as `error_type` says", noise=Noise(1e-4, 1e-6))
     error_type: str = column("`relative` or `absolute`")
-    verdict: ClaimVerdict = column("`agrees`, `disagrees` or `cannot tell`")
+    assessment: ClaimAssessment = column("`agrees`, `disagrees` or `cannot tell`")
     status: str = column(STATUS + "; `not_compared` for context")
     note: str = column(NOTE, free=True)
     assumed: str = column(ASSUMED)

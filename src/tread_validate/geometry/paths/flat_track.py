@@ -32,9 +32,9 @@ class DownAndUp:
     Attributes
     ----------
     height, depth : float, m
-        Height of the mount at the first touch, and how far it goes down from there.
+        Height of the mount at the first contact, and how far it goes down from there.
     pressed, released, left : float, m
-        Travel of the road at the end of the approach, at the start of the retreat, at its end; 0 at the first touch.
+        Travel of the road at the end of the approach, at the start of the retreat, at its end; 0 at the first contact.
     """
 
     height: float
@@ -100,7 +100,7 @@ class FlatTrack(PathEntry):
     rolls: ClassVar[bool] = False
 
     kind: Literal["flat_track"]
-    approach_ms: Positive = Field(description="from the first touch to the full depth, along a quarter of a sine")
+    approach_ms: Positive = Field(description="from the first contact to the full depth, along a quarter of a sine")
     hold_ms: Positive = Field(description="at the full depth")
     retreat_ms: Positive = Field(description="from the full depth until the stress-free block would be clear")
 
@@ -123,7 +123,7 @@ class FlatTrack(PathEntry):
             profile=profile,
             speed=run.speed,
             interference=run.interference,
-            first_touch_arc=0.0,
+            first_contact_arc=0.0,
             contact_duration=left / run.speed,
             finest_time=1e-5 * min(self.approach_ms, self.retreat_ms),
         )

@@ -78,6 +78,6 @@ class Rig(PathEntry):
             profile=profile,
             speed=run.speed,
             interference=run.interference,
-            first_touch_arc=first,
+            first_contact_arc=first,
             contact_duration=float(np.max(touch_arc + offset) - first) / run.speed,
         )

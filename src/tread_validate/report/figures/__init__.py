@@ -1,6 +1,6 @@
 """The report's drawn figures, as SVG files."""
 
-from .studio import Studio
+from .draw import Drawings
 from .style import Drawn, figure_items
 
-__all__ = ["Drawn", "Studio", "figure_items"]
+__all__ = ["Drawings", "Drawn", "figure_items"]

@@ -77,11 +77,11 @@ TV.browser = (function () {
         body.append(TV.element("tr", { class: "group" }, head));
         last = pair;
       }
-      const verdict = TV.element("td", { class: "verdict " + (row.tone ? row.tone + "-text" : "") }, row.v);
-      if (row.u) { verdict.append(TV.element("span", { class: "why" }, row.u)); }
-      if (row.note) { verdict.append(TV.element("span", { class: "why" }, row.note)); }
+      const assessment = TV.element("td", { class: "assessment " + (row.tone ? row.tone + "-text" : "") }, row.v);
+      if (row.u) { assessment.append(TV.element("span", { class: "why" }, row.u)); }
+      if (row.note) { assessment.append(TV.element("span", { class: "why" }, row.note)); }
       body.append(TV.element("tr", {}, TV.element("td", {}, row.q), TV.element("td", { class: "num" }, row.a),
-        TV.element("td", { class: "num" }, row.b), TV.element("td", { class: "num" }, row.e), verdict));
+        TV.element("td", { class: "num" }, row.b), TV.element("td", { class: "num" }, row.e), assessment));
     }
     if (!body.children.length) {
       body.append(TV.element("tr", {}, TV.element("td", { colspan: 5 }, "No comparison for this case.")));

@@ -114,7 +114,7 @@ def user(deck: Path) -> Path:
 
 @pytest.fixture
 def work(tmp_path: Path) -> Path:
-    """A working folder that tells the stand-in to succeed."""
+    """A working folder that tells the test double to succeed."""
     folder = tmp_path / "job"
     folder.mkdir()
     (folder / "stand_in.json").write_text(json.dumps({"odb": odb()}))

@@ -26,7 +26,7 @@ def forces(case):
     s = (np.arange(COLUMNS) + 0.5) * cell
     height = np.interp(s, columns["s_m"], columns["height_m"])
     area = cell * np.interp(s, profile["s_m"], profile["width_m"])
-    arc = path["first_touch_arc_m"] + path["arc_speed_m_s"] * time[:, None]
+    arc = path["first_contact_arc_m"] + path["arc_speed_m_s"] * time[:, None]
     arc = arc - np.interp(s, columns["s_m"], columns["arc_offset_m"])
     x, y, slope = (np.interp(arc, samples["arc_m"], samples[key]) for key in ("x_m", "y_m", "slope_rad"))
     x, y = x + height * np.sin(slope), y - height * np.cos(slope)

@@ -1,0 +1,161 @@
+"""Time of a pass, of a step and of the set-up for every level of the model hierarchy, and how they grow; one core.
+
+Run: python benchmarks/hierarchy_speed.py [figure.png]
+
+Times are of the processor, compiled; the best of several. Targets: a pass of `condensed` 8 ms (rectangle), 20 ms
+(parallelogram); its set-up 0.3 and 1 s, 30 ms from disk; its creep search 60 ms.
+"""
+
+import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import sys
+import tempfile
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import tread_validate as tv
+from tread_validate.geometry import path_of
+from tread_validate.spring import free_rolling_creep, run
+from tread_validate.spring.condensed.roll import CondensedSettings, roll, step_times
+from tread_validate.spring.condensed.store import converged_ratios, ready
+
+BELT = "belt-simplified-60c-0p2mm-16p7mps-creep0p3"
+CASES = (BELT, "rig-rectangle-22c-0p2mm-300rpm", "rig-parallelogram-22c-0p2mm-300rpm")
+LEVELS = ("paper", "shape_factor", "shape_factor_theory", "condensed_coarse", "condensed")
+PITCHES, RIBS = 60, 5
+
+
+def best_of(count, work):
+    times = []
+    for _ in range(count):
+        begin = time.process_time()
+        work()
+        times.append(time.process_time() - begin)
+    return min(times)
+
+
+def forget():
+    for store in (converged_ratios, ready):
+        store.cache_clear()
+
+
+def levels(study):
+    print(f"{'case':44} {'level':15} {'set-up s':>9} {'from disk s':>11} {'pass ms':>8} {'creep search ms':>16}")
+    for case_id in CASES:
+        case = study.case(case_id)
+        for level in LEVELS:
+            with tempfile.TemporaryDirectory() as folder:
+                os.environ["TREAD_VALIDATE_CACHE"] = folder
+                forget()
+                first = best_of(1, lambda case=case, level=level: run(case, level))
+                each = best_of(5, lambda case=case, level=level: run(case, level))
+                forget()
+                again = best_of(1, lambda case=case, level=level: run(case, level))
+                search = ""
+                if not case.is_rig:
+                    search = f"{1e3 * best_of(2, lambda case=case, level=level: free_rolling_creep(case, level)):.1f}"
+            del os.environ["TREAD_VALIDATE_CACHE"]
+            said = f"{case_id:44} {level:15} {first - each:9.3f} {again - each:11.4f} {1e3 * each:8.2f} {search:>16}"
+            print(said, flush=True)
+
+
+def stepping(study):
+    for case_id in CASES:
+        case = study.case(case_id)
+        path = path_of(case)
+        time_ = step_times(path, case.height / 8.0, CondensedSettings())
+        at = path.at(0.5 * path.columns.extent, time_)
+        block = tv.TreadBlock(case)
+
+        def ride(block=block, at=at, time_=time_, path=path):
+            block.start((at.x[0], at.y[0]), at.theta[0])
+            for k in range(1, time_.size):
+                block.step(time_[k] - time_[k - 1], (at.x[k], at.y[k]), at.theta[k], path.speed)
+
+        ride()
+        print(f"{case_id}: {1e6 * best_of(3, ride) / (time_.size - 1):.0f} us a step in a host's hands")
+
+
+def exponent(x, y):
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
+
+
+def growth(study):
+    """Return (what, x, seconds) of each series."""
+    belt = study.case(BELT)
+    found = []
+    lengths = np.array([1.0, 0.5, 0.25, 0.125])
+    cases = [replace(belt, spring=belt.spring.model_copy(update={"element_length_mm": float(e)})) for e in lengths]
+    found.append(("paper: elements", 25 / lengths, [best_of(30, lambda c=c: run(c, "paper")) for c in cases]))
+    nodes, passes, setups, sizes = [], [], [], []
+    for density in (4.0, 6.0, 8.0, 12.0, 16.0):
+        settings = CondensedSettings(density=density, step=0.5 * density / 8.0, middle_step=density / 8.0)
+        os.environ["TREAD_VALIDATE_CACHE"] = "off"
+        forget()
+        first = best_of(1, lambda s=settings: roll(belt, s))
+        passes.append(best_of(3, lambda s=settings: roll(belt, s)))
+        nodes.append(roll(belt, settings).body.nodes_per_layer)
+        setups.append(first - passes[-1])
+        sizes.append(nodes[-1])
+    del os.environ["TREAD_VALIDATE_CACHE"]
+    found.append(("condensed: face nodes, steps of 0.5 mm", np.array(nodes), passes))
+    found.append(("condensed: set-up, face nodes", np.array(sizes), setups))
+    steps, times = [], []
+    for step in (1.0, 0.5, 0.25, 0.125):
+        settings = CondensedSettings(step=step, middle_step=2 * step, longest_step=16 * step)
+        times.append(best_of(3, lambda s=settings: roll(belt, s)))
+        steps.append(roll(belt, settings).time.size)
+    found.append(("condensed: steps", np.array(steps), times))
+    for level in ("paper", "condensed"):
+        counts = np.array([2, 8, 32])
+        found.append((f"{level}: cases", counts, [best_of(2, lambda n=n, r=level: many(belt, r, n)) for n in counts]))
+    return found
+
+
+def many(belt, level, count):
+    for k in range(count):
+        run(replace(belt, creep_ratio=round(0.002 + 1e-5 * k, 5)), level)
+
+
+def draw(found, target):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(6.4, 4.6), layout="constrained")
+    for what, x, y in found:
+        axes.loglog(x, 1e3 * np.array(y), "o-", label=f"{what}: exponent {exponent(x, y):.2f}")
+    axes.set(xlabel="number", ylabel="processor time, ms")
+    axes.grid(color="#e6e9ec")
+    axes.legend(fontsize=7.5, frameon=False)
+    figure.savefig(target, dpi=130)
+
+
+def main():
+    study = tv.load_study(Path(__file__).resolve().parents[1] / "config" / "study.yaml")
+    run(study.case(BELT), "condensed_coarse")  # compile
+    levels(study)
+    stepping(study)
+    found = growth(study)
+    for what, x, y in found:
+        span = f"{x[0]:g} to {x[-1]:g}, {1e3 * y[0]:.3g} to {1e3 * y[-1]:.3g} ms"
+        print(f"{what}: exponent {exponent(x, y):.2f} ({span})")
+    case = study.case(BELT)
+    for level in ("paper", "shape_factor", "condensed_coarse", "condensed"):
+        each = best_of(5, lambda level=level: run(case, level))
+        one, all_ = RIBS * each, PITCHES * RIBS * each
+        said = f"{all_:.2f} s a revolution, {one:.3f} s if pitches are alike"
+        print(f"a tyre of {PITCHES} pitches x {RIBS} ribs, {level}: {said}")
+    if len(sys.argv) > 1:
+        draw(found, sys.argv[1])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+"""All tables and figures of the hierarchy, from a study and its references."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..compare.quantities import tolerances
+from ..compare.runs import fe_runs
+from ..compare.tables import write_table
+from ..errors import InputError
+from ..spring import resolve_creep
+from ..study import Case, LoadedStudy, SimplifiedBelt
+from ..study.typical import path_kind, typical_cases
+from . import compatibility, effects, figures, pareto, published, sensitivity
+from .own_models import own_rows
+
+Table = list[dict[str, Any]]
+Say = Callable[[str], None]
+
+PARTS = ("pareto", "effects", "published", "compatibility", "sobol")
+
+
+@dataclass(frozen=True)
+class Folders:
+    """Where references, decks and the runs of the study's own models lie, and where the tables go."""
+
+    references: Path
+    decks: Path
+    output: Path
+    models: Path | None = None
+
+
+def build(
+    study: LoadedStudy, folders: Folders, say: Say, samples: int = 256, parts: Sequence[str] = PARTS
+) -> dict[str, Table]:
+    """Make the tables and figures of the `parts` and return the tables by name; see docs/model_hierarchy.md.
+
+    Raises `InputError` for a part that is none of `PARTS`.
+    """
+    for part in parts:
+        if part not in PARTS:
+            raise InputError("hierarchy: part", part, f"one of {', '.join(PARTS)}")
+    cases = resolve_creep(study.cases())
+    engine = study.model.engine
+    references = fe_runs(cases, folders.references, engine, folders.decks)
+    chosen = representative(cases)
+    drawn = folders.output / "figures"
+    tables: dict[str, Table] = {}
+
+    def put(name: str, columns: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
+        tables[name] = list(rows)
+        write_table(folders.output / f"{name}.csv", columns, tables[name])
+
+    judged = tolerances(study.model.tolerances, study.source)
+    if "pareto" in parts:
+        say("error and cost of every level")
+        held = pareto.case_rows(cases, references, engine, judged=judged)
+        if folders.models is not None:
+            held += own_rows(study, cases, references, folders.models, judged)
+        put("errors", pareto.CASE_COLUMNS, held)
+        put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
+        put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.references, engine))
+        figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")
+    if "effects" in parts:
+        say("what each effect is worth")
+        put("effects", effects.COLUMNS, effects.effect_rows(chosen))
+        theory = []
+        for case in chosen:
+            try:
+                theory += effects.theory_rows(case)
+            except InputError as error:
+                say(f"no stiffness by theory for {case.case_id}: {error}")
+        put("stiffness", effects.THEORY_COLUMNS, theory)
+    if "published" in parts:
+        say("published figures")
+        put("published", published.COLUMNS, published.published_rows(cases, references, engine, pareto.LEVELS))
+        belts = [case for case in chosen if isinstance(case.path, SimplifiedBelt)]
+        levels = ("paper", "shape_factor", "condensed_coarse")
+        put("combinations", published.COMBINATION_COLUMNS,
+            [row for case in belts for row in published.combination_rows(case, levels)])  # fmt: skip
+    if "compatibility" in parts:
+        say("rate and temperature")
+        put("compatibility", compatibility.COLUMNS, compatibility.compatibility_rows(cases))
+        figures.compatibility_figure(tables["compatibility"], drawn / "compatibility")
+    if "sobol" in parts:
+        say("Sobol indices")
+        put("sobol", sensitivity.COLUMNS, [row for case in chosen for row in sensitivity.sobol_rows(case, samples)])
+        figures.sobol_figure(tables["sobol"], drawn / "sobol")
+    return tables
+
+
+def representative(cases: Sequence[Case]) -> list[Case]:
+    """Return one typical case of every kind of path, chosen from the study by one rule; see `typical_cases`."""
+    return list(typical_cases(cases, path_kind))

@@ -1,0 +1,128 @@
+"""Figures of the hierarchy: error against cost, Sobol indices, rate and temperature coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..palette import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION
+from ..plotting import canvas, note, panel, save, styled
+
+# told apart by marker as well
+STYLES = {
+    "paper": (BLUE, "o"),
+    "shape_factor_theory": (ORANGE, "v"),
+    "shape_factor": (VERMILION, "^"),
+    "condensed_coarse": (PURPLE, "s"),
+    "condensed": (GREEN, "D"),
+    "fe": (BLACK, "P"),
+}
+OWN = (GREY, "X")  # a model of the user's own; its name stands in the legend
+Rows = Sequence[Mapping[str, Any]]
+ROOM = 0.96  # of the height, under the note
+
+
+def pareto_figure(rows: Rows, meshes: Rows, path: Path) -> None:
+    """Draw the error of the peak normal force and the score of the tangential force against the time of a pass."""
+    with styled():
+        figure = canvas((8.6, 4.2))
+        left, right = figure.subplots(1, 2)
+        for row in rows:
+            error = row["mean_abs_peak_normal_force_error"]
+            if row["group"] == "all" or error is None or row["seconds_per_pass"] is None:
+                continue
+            color, marker = STYLES.get(row["level"], OWN)
+            look = {
+                "color": color, "ms": 7, "ls": "none", "label": f"{row['level']}, {row['group']}",
+                "mfc": color if row["group"] == "rig" else "white",
+            }  # fmt: skip
+            left.plot(row["seconds_per_pass"], 100.0 * error, marker, **look)
+            if row["mean_iso18571_tangential"] is not None:
+                right.plot(row["seconds_per_pass"], row["mean_iso18571_tangential"], marker, **look)
+        color, marker = STYLES["fe"]
+        for row in meshes:
+            if row["seconds_estimated"] is None:
+                continue
+            filled = row["case_id"].startswith("rig")
+            place = row["seconds_estimated"], max(100.0 * abs(row["peak_normal_force_error"]), 0.02)
+            left.plot(*place, marker, color=color, ms=8, mfc=color if filled else "white", ls="none")
+            left.annotate(f"FE {row['element_size_mm']:g} mm", place, textcoords="offset points", xytext=(5, 5), size=7)
+        left.set(xscale="log", yscale="log", xlabel="processor time of one pass, s")
+        left.set_ylabel("mean |error| of the peak normal force, %")
+        left.set_title("Normal force, against the FE runs\n(FE meshes: against their own limit)", loc="left")
+        right.set(xscale="log", ylim=(0.0, 1.02), xlabel="processor time of one pass, s")
+        right.set_ylabel("mean ISO/TS 18571 score")
+        right.set_title("Tangential force history, against the FE runs\n(1 is perfect)", loc="left")
+        figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+        _mark(figure, rows)
+        _save(figure, path)
+
+
+def sobol_figure(rows: Rows, path: Path) -> None:
+    """Draw total and first-order indices for each run and quantity, the inputs sorted by their largest total."""
+    panels = list(dict.fromkeys((row["run"], row["quantity"]) for row in rows))
+    if not panels:
+        return
+    with styled():
+        columns = min(2, len(panels))
+        lines = -(-len(panels) // columns)
+        figure = canvas((4.6 * columns, 0.5 + 2.6 * lines))
+        for index, (run, quantity) in enumerate(panels):
+            own = sorted(
+                (row for row in rows if (row["run"], row["quantity"]) == (run, quantity)), key=lambda row: row["total"]
+            )
+            axes: Axes = figure.add_subplot(lines, columns, index + 1)
+            names = [row["input"] for row in own]
+            axes.barh(names, [row["total"] for row in own], color=SKY, height=0.75, label="total")
+            axes.barh(names, [max(row["first_order"], 0.0) for row in own], color=BLUE, height=0.35,
+                      label="first order")  # fmt: skip
+            scale, unit = (100.0, "%") if own[0]["unit"] == "1" else (1.0, own[0]["unit"])
+            low, high = scale * own[0]["p05"], scale * own[0]["p95"]
+            axes.set_title(f"{run.split('-')[0]}: {quantity}\n5..95 %: {low:.3g} to {high:.3g} {unit}", loc="left")
+            axes.set(xlim=(0.0, 1.0), xlabel="Sobol index")
+            axes.tick_params(axis="y", labelsize=7)
+            if index == 0:
+                axes.legend(loc="lower right")
+        _mark(figure, rows)
+        _save(figure, path)
+
+
+def compatibility_figure(rows: Rows, path: Path) -> None:
+    """Draw a_v against a_theta for the families of spectra, with the published pair and its spread."""
+    look = {
+        "published": (BLACK, "s"), "power law": (BLUE, "o"), "the study's compound": (GREEN, "D"),
+        "one bell": (ORANGE, "^"), "any spectrum >= 0": (VERMILION, "X"),
+    }  # fmt: skip
+    if not rows:
+        return
+    with styled():
+        figure, axes = panel((5.6, 4.2))
+        seen: set[str] = set()
+        for row in rows:
+            color, marker = look[row["family"]]
+            spread = row["a_v_sd_percent_s_per_m"]
+            axes.errorbar(
+                row["a_theta_percent_per_degC"], row["a_v_percent_s_per_m"], yerr=spread or None, fmt=marker,
+                color=color, ms=7, lw=0.8, capsize=2, label=None if row["family"] in seen else row["family"],
+            )  # fmt: skip
+            seen.add(row["family"])
+        axes.set(xlabel="a_theta, % per degC", ylabel="a_v, % per m/s (bar: sd over the sets)")
+        axes.set_title("Rate and temperature coefficients of linear compounds", loc="left")
+        axes.legend()
+        note(figure, "WLF constants of the paper; rig geometry with an assumed big wheel", ROOM)
+        _save(figure, path)
+
+
+def _mark(figure: Figure, rows: Rows) -> None:
+    """Print the assumed and synthetic inputs that the rows depend on."""
+    names = sorted({name for row in rows for name in (row["assumed"] or "").split("; ") if name})
+    note(figure, "depends on: " + ", ".join(names) if names else "", ROOM)
+
+
+def _save(figure: Figure, path: Path) -> None:
+    for suffix in (".svg", ".png"):
+        save(figure, path.with_suffix(suffix))

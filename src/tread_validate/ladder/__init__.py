@@ -1,5 +1,0 @@
-"""The model ladder: what each rung costs, how far it is off, what each effect is worth, and what hangs on what."""
-
-from .build import Folders, build, representative
-
-__all__ = ["Folders", "build", "representative"]

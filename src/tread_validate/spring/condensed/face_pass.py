@@ -1,0 +1,72 @@
+"""The condensed face as a variant of the spring model: forces on the uniform clock that all variants share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from ...geometry import path_of
+from ...study import Case
+from .roll import CondensedSettings, FacePass, roll
+from .stepping import FaceBlock
+
+Array = NDArray[np.float64]
+
+COARSE = CondensedSettings(density=4.0, layers=8)
+"""A face for thousands of runs."""
+SAMPLES = 1500
+"""Rows of a record per contact duration: the clock is finer than the solver's steps and is filled by interpolation."""
+
+
+@dataclass(frozen=True)
+class CondensedPass:
+    """A case ready to run at any creep ratio, and the shorthand `roll` of its settings."""
+
+    case: Case
+    settings: CondensedSettings
+    step: float
+    creep_tolerance: float = 2e-6
+    """Creep ratios closer than this have one impulse, to the sweeps' tolerance."""
+
+    def face(self, creep_ratio: float) -> FacePass:
+        """Return the pass node by node, on the solver's own steps."""
+        return roll(self.case.with_creep(creep_ratio), self.settings)
+
+    def forces(self, creep_ratio: float) -> Array:
+        """Return normal force, shear force (N, positive like lambda), touching and slipping area (m2), (n, 4)."""
+        face = self.face(creep_ratio)
+        copies = face.copies
+        touching = copies * ((face.state > 0) @ face.body.area)
+        slipping = touching * face.slipping_fraction
+        time = self.step * np.arange(int(np.ceil(face.time[-1] / self.step)))
+        smooth = PchipInterpolator(face.time, np.column_stack([face.normal_force, -face.tangential_force]))(time)
+        areas = [np.interp(time, face.time, values) for values in (touching, slipping)]
+        return np.column_stack([smooth, *areas])
+
+    def net_shear_impulse(self, creep_ratio: float) -> float:
+        """Return the time integral of the shear force over the pass, N s."""
+        face = self.face(creep_ratio)
+        return float(-np.trapezoid(face.tangential_force, face.time))
+
+
+def prepare_condensed(case: Case, settings: CondensedSettings | None = None) -> CondensedPass:
+    """Return the case ready to run; raises `InputError` for a path, a block or a data file that will not do."""
+    return CondensedPass(case, settings or CondensedSettings(), path_of(case).contact_duration / SAMPLES)
+
+
+def prepare_coarse(case: Case) -> CondensedPass:
+    """Return the case ready to run on the coarse face."""
+    return prepare_condensed(case, COARSE)
+
+
+def block_of(case: Case) -> FaceBlock:
+    """Return the case's block as a state that a host advances."""
+    return FaceBlock(case, CondensedSettings())
+
+
+def coarse_block_of(case: Case) -> FaceBlock:
+    """Return the same with a coarse face."""
+    return FaceBlock(case, COARSE)

@@ -1,0 +1,160 @@
+"""What the kernels of the condensed face take: plain tuples of numbers and arrays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inputs import KernelLaw
+
+Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Integers = NDArray[np.int64]
+
+FREE, STICK, SLIP = 0, 1, 2
+"""What a node of the face does."""
+
+
+class Solid(NamedTuple):
+    """The rubber of the block.
+
+    Attributes
+    ----------
+    long_term : float, Pa
+    moduli, relaxation_times : (k,) arrays, Pa and s
+        At the temperature of the run.
+    stretch : (2,) array, 1/m
+        Relative growth of the elastic resistance per metre of compression: normal, tangential (0, 0 is small strain).
+    """
+
+    long_term: float
+    moduli: Array
+    relaxation_times: Array
+    stretch: Array
+
+
+class RoadMotion(NamedTuple):
+    """The rigid road.
+
+    Attributes
+    ----------
+    radius : float, m
+        Of the circle with its top at the axle frame's origin; inf for the plane y = 0.
+    speed : float, m/s
+        Towards +x at the top.
+    """
+
+    radius: float
+    speed: float
+
+
+class Pose(NamedTuple):
+    """Where the mount holds the block at an instant.
+
+    Attributes
+    ----------
+    x, y : float, m
+        Mount above the middle of the block, in the axle frame.
+    angle : float, rad
+        Slope of the mount there.
+    unloaded : (n, 3) array, m
+        Positions of the face's nodes in the block's frame if no force acted on the face.
+    """
+
+    x: float
+    y: float
+    angle: float
+    unloaded: Array
+
+
+class FaceNodes(NamedTuple):
+    """The face's nodes, sorted by their place along the block.
+
+    Attributes
+    ----------
+    area : (n,) array, m2
+        Area that each node stands for; 0 for a node without rubber.
+    row : (n,) array of int
+        Row across the block that a node belongs to; never falls.
+    compliance : (3 n, 3 n) array, Pa m/N
+        Inverse of the face's stiffness for E = 1 Pa.
+    """
+
+    area: Array
+    row: Integers
+    compliance: Singles
+
+
+class FaceState(NamedTuple):
+    """What the face remembers between steps; every array is changed in place.
+
+    Attributes
+    ----------
+    w : (n, 3) array, m
+        Elastic displacement in the block's frame (stretched by the strain measure).
+    rate : (n, 3) array, m/s
+    memory : (k, n, 3) array, m
+        Fading displacement of each Prony term.
+    place : (n, 3) array, m
+        Positions in the axle frame.
+    code : (n,) array of int
+        `FREE`, `STICK` or `SLIP`.
+    force : (n, 3) array, N
+        Force of the road on the nodes, block's frame.
+    scale : (1,) array, N
+        Largest nodal force of the step before.
+    """
+
+    w: Array
+    rate: Array
+    memory: Array
+    place: Array
+    code: Integers
+    force: Array
+    scale: Array
+
+
+class Scratch(NamedTuple):
+    """Work space of one step."""
+
+    relaxed: Array
+    q: Array
+    target: Array
+    normal: Array
+    before: Integers
+    decay: Array
+
+
+class Solver(NamedTuple):
+    """When the sweeps stop: change of a nodal force over the largest one, and at most how many."""
+
+    tolerance: float
+    most_sweeps: int
+
+
+class Scene(NamedTuple):
+    """What stays the same over a pass."""
+
+    face: FaceNodes
+    solid: Solid
+    road: RoadMotion
+    law: KernelLaw
+    solver: Solver
+
+
+def fresh_state(nodes: int, terms: int) -> FaceState:
+    """Return the state of a block that never touched; positions are filled in by `start`."""
+    return FaceState(
+        np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((terms, nodes, 3)), np.zeros((nodes, 3)),
+        np.zeros(nodes, dtype=np.int64), np.zeros((nodes, 3)), np.full(1, 1e-3),
+    )  # fmt: skip
+
+
+def scratch(nodes: int, terms: int) -> Scratch:
+    """Return work space for `nodes` nodes and `terms` Prony terms."""
+    return Scratch(
+        np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 2)),
+        np.zeros(nodes, dtype=np.int64), np.zeros(terms),
+    )  # fmt: skip

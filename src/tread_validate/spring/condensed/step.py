@@ -1,0 +1,249 @@
+"""One step of a condensed viscoelastic block against a rigid road, quasi-static, in compiled code.
+
+A step has three parts, so that the nodes that matter can be chosen between them: `approach` says where each node would
+be carried and which ones may touch; `hold` solves the contact of a window of nodes; `settle` moves everything on.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...kernels import kernel
+from .contact import Nodes, Tempo, solve_contact
+from .inputs import FREE, STICK, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Solid
+
+SUNK = 1e-9
+"""A node outside the window that stands deeper in the road than this (m) asks for a wider window."""
+
+
+@kernel()
+def start(pose: Pose, solid: Solid, state: FaceState) -> None:
+    """Put the unloaded face where the mount holds it."""
+    _positions(pose, state.w, solid.stretch, state.place)
+
+
+@kernel()
+def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratch) -> tuple[float, int, int]:
+    """Write first guess, target and road normal of every node to `work`.
+
+    Returns dq/dw over the step (Pa), the first node that touches or may touch, and the last one plus 1 (0, 0: none).
+    """
+    solid, road = scene.solid, scene.road
+    n, terms = state.w.shape[0], solid.moduli.size
+    cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
+    stiffening = solid.long_term
+    for j in range(terms):
+        x = dt / solid.relaxation_times[j]
+        work.decay[j] = math.exp(-x)
+        stiffening += solid.moduli[j] * (-math.expm1(-x) / x)
+    _relax(solid, state, work)
+    first, last = n, 0
+    q, target, relaxed = work.q, work.target, work.relaxed
+    ahead = np.empty(3)
+    for i in range(n):
+        before = state.code[i]
+        work.before[i] = before
+        for c in range(3):
+            ahead[c] = state.w[i, c] + state.rate[i, c] * dt
+            q[i, c] = relaxed[i, c] + stiffening * state.rate[i, c] * dt
+        place, unloaded = state.place[i], pose.unloaded[i]
+        x, y, z = place[0], place[1], place[2]
+        rest = 1.0
+        if before == FREE:
+            # a free node moves with its mount and its neighbours (where its displacement is heading) until it
+            # touches, part of the step, and with the road for the rest
+            dy = _actual(ahead[1], solid.stretch[0])
+            shear = 1.0 + solid.stretch[1] * max(dy, 0.0)
+            fx, fy = unloaded[0] + ahead[0] / shear, unloaded[1] + dy
+            ax, ay = pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy
+            az = unloaded[2] + ahead[2] / shear
+            new = _gap(ax, ay, road.radius)
+            part = 1.0
+            if new < 0.0:
+                old = _gap(x, y, road.radius)
+                part = min(max(old / (old - new), 0.0), 1.0) if old > 0.0 else 0.0
+            x, y, z = x + part * (ax - x), y + part * (ay - y), z + part * (az - z)
+            rest = 1.0 - part
+        if before != FREE or rest > 0.0:
+            first, last = min(first, i), i + 1
+        travel = rest * dt * road.speed
+        if math.isinf(road.radius):
+            tx, ty, nx, ny = x + travel, 0.0, 0.0, 1.0
+        else:
+            turn = math.atan2(x, y + road.radius) + travel / road.radius
+            nx, ny = math.sin(turn), math.cos(turn)
+            tx, ty = road.radius * nx, road.radius * (ny - 1.0)
+        # into the block's frame, less the unloaded place, stretched: the displacement that the road imposes
+        gx, gy = tx - pose.x, ty - pose.y
+        ux = cosine * gx + sine * gy - unloaded[0]
+        uy = cosine * gy - sine * gx - unloaded[1]
+        uz = z - unloaded[2]
+        pressed = max(uy, 0.0)
+        shear = 1.0 + solid.stretch[1] * pressed
+        target[i, 0] = relaxed[i, 0] + stiffening * (ux * shear - state.w[i, 0])
+        target[i, 1] = relaxed[i, 1] + stiffening * (uy * (1.0 + solid.stretch[0] * pressed) - state.w[i, 1])
+        target[i, 2] = relaxed[i, 2] + stiffening * (uz * shear - state.w[i, 2])
+        work.normal[i, 0] = cosine * nx + sine * ny
+        work.normal[i, 1] = cosine * ny - sine * nx
+        if before == STICK:
+            q[i] = target[i]
+    if last == 0:
+        first = 0
+    return stiffening, first, last
+
+
+@kernel()
+def hold(operator: Singles, begin: int, end: int, scene: Scene, tempo: Tempo, state: FaceState, work: Scratch) -> int:
+    """Solve the contact of the nodes begin..end with the window's `operator`; return the number of sweeps.
+
+    Nodes outside are free of force, and their q follows from the forces.
+    """
+    n = state.w.shape[0]
+    state.force[:] = 0.0
+    for i in range(n):
+        if i < begin or i >= end:
+            state.code[i] = FREE
+        else:
+            state.code[i] = work.before[i]
+    sweeps = 0
+    if end > begin:
+        q = work.q[begin:end]
+        force = state.force[begin:end]
+        _product(operator, q.ravel().astype(np.float32), force)
+        area = scene.face.area[begin:end]
+        codes = state.code[begin:end]
+        nodes = Nodes(q, force, work.target[begin:end], work.normal[begin:end], area, work.before[begin:end], codes)
+        sweeps = solve_contact(operator, nodes, tempo, scene.law, scene.solver, state.scale[0])
+        for i in range(begin, end):
+            if state.code[i] == FREE:
+                state.force[i] = 0.0
+    _follow(scene.face.compliance, state.code, state.force, begin, end, work.q)
+    return sweeps
+
+
+@kernel()
+def widest(
+    pose: Pose, scene: Scene, state: FaceState, tempo: Tempo, begin: int, end: int, work: Scratch
+) -> tuple[int, int]:
+    """Return a window that also holds the nodes outside begin..end that the solution would sink into the road."""
+    solid, road = scene.solid, scene.road
+    cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
+    n = state.w.shape[0]
+    first, last = (begin, end) if end > begin else (n, 0)
+    for i in range(n):
+        if begin <= i < end:
+            continue
+        wx = state.w[i, 0] + (work.q[i, 0] - work.relaxed[i, 0]) / tempo.stiffening
+        wy = state.w[i, 1] + (work.q[i, 1] - work.relaxed[i, 1]) / tempo.stiffening
+        dy = _actual(wy, solid.stretch[0])
+        fx = pose.unloaded[i, 0] + wx / (1.0 + solid.stretch[1] * max(dy, 0.0))
+        fy = pose.unloaded[i, 1] + dy
+        gap = _gap(pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy, road.radius)
+        if gap < -SUNK:
+            first, last = min(first, i), max(last, i + 1)
+    return (first, last) if last > 0 else (0, 0)
+
+
+@kernel()
+def settle(pose: Pose, solid: Solid, state: FaceState, tempo: Tempo, work: Scratch) -> tuple[float, float]:
+    """Move displacements, memory and positions on; return the force on the face in the axle frame (x, y), N."""
+    n, terms = state.w.shape[0], solid.moduli.size
+    dt = tempo.dt
+    for i in range(n):
+        for c in range(3):
+            change = (work.q[i, c] - work.relaxed[i, c]) / tempo.stiffening
+            state.rate[i, c] = change / dt
+            state.w[i, c] += change
+    for j in range(terms):
+        weight = solid.relaxation_times[j] * (1.0 - work.decay[j])
+        _fade(state.memory[j], work.decay[j], weight, state.rate)
+    _positions(pose, state.w, solid.stretch, state.place)
+    cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
+    sum_x, sum_y, largest = 0.0, 0.0, 0.0
+    for i in range(n):
+        if state.code[i] != FREE:
+            sum_x += cosine * state.force[i, 0] - sine * state.force[i, 1]
+            up = sine * state.force[i, 0] + cosine * state.force[i, 1]
+            sum_y += up
+            largest = max(largest, up)
+    state.scale[0] = max(largest, 1e-3)
+    return sum_x, sum_y
+
+
+@kernel(reorder=True)
+def _relax(solid: Solid, state: FaceState, work: Scratch) -> None:
+    """What is left of q when w stands still over the step."""
+    relaxed = work.relaxed.ravel()
+    w = state.w.ravel()
+    for i in range(relaxed.size):
+        relaxed[i] = solid.long_term * w[i]
+    for j in range(solid.moduli.size):
+        weight = solid.moduli[j] * work.decay[j]
+        memory = state.memory[j].ravel()
+        for i in range(relaxed.size):
+            relaxed[i] += weight * memory[i]
+
+
+@kernel(reorder=True)
+def _fade(memory: Array, decay: float, weight: float, rate: Array) -> None:
+    flat, flow = memory.ravel(), rate.ravel()
+    for i in range(flat.size):
+        flat[i] = decay * flat[i] + weight * flow[i]
+
+
+@kernel(reorder=True)
+def _product(matrix: Singles, vector: Singles, out: Array) -> None:
+    flat = out.ravel()
+    for i in range(flat.size):
+        row = matrix[i]
+        total = np.float32(0.0)
+        for j in range(vector.size):
+            total += row[j] * vector[j]
+        flat[i] = total
+
+
+@kernel(reorder=True)
+def _follow(compliance: Singles, code: Integers, force: Array, begin: int, end: int, q: Array) -> None:
+    """Set q of every free node to what the forces on the nodes begin..end make of it."""
+    columns = slice(3 * begin, 3 * end)
+    load = force.ravel()[columns].astype(np.float32)
+    for i in range(q.shape[0]):
+        if code[i] != FREE:
+            continue
+        for c in range(3):
+            row = compliance[3 * i + c, columns]
+            total = np.float32(0.0)
+            for j in range(load.size):
+                total += row[j] * load[j]
+            q[i, c] = total
+
+
+@kernel()
+def _actual(w: float, factor: float) -> float:
+    """Solve d (1 + factor d) = w for the compression d; where the face is drawn out, d = w."""
+    if factor == 0.0 or w <= 0.0:
+        return w
+    return 2.0 * w / (1.0 + math.sqrt(1.0 + 4.0 * factor * w))
+
+
+@kernel()
+def _positions(pose: Pose, w: Array, stretch: Array, place: Array) -> None:
+    """Write the axle-frame positions of the face's nodes into `place`."""
+    cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
+    unloaded = pose.unloaded
+    for i in range(w.shape[0]):
+        dy = _actual(w[i, 1], stretch[0])
+        shear = 1.0 + stretch[1] * max(dy, 0.0)
+        x, y = unloaded[i, 0] + w[i, 0] / shear, unloaded[i, 1] + dy
+        place[i, 0] = pose.x + cosine * x - sine * y
+        place[i, 1] = pose.y + sine * x + cosine * y
+        place[i, 2] = unloaded[i, 2] + w[i, 2] / shear
+
+
+@kernel()
+def _gap(x: float, y: float, road_radius: float) -> float:
+    if math.isinf(road_radius):
+        return y
+    return math.hypot(x, y + road_radius) - road_radius
