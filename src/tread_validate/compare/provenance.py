@@ -48,7 +48,7 @@ def provenance(
 
 
 def assumed_inputs(cases: Sequence[Case]) -> list[AssumedRow]:
-    """Return every assumed or synthetic input with the number of cases that rest on it."""
+    """Return every assumed or synthetic input with the number of cases that depend on it."""
     found: dict[tuple[str, str], tuple[str, int]] = {}
     for case in cases:
         for name, item in (

@@ -133,7 +133,7 @@ def _solve(normal: list[list[Decimal]], moment: list[Decimal], free: list[int]) 
             row.append(partial / factor[j][j])
         square = normal[i][i] - sum(map(mul, row, row))
         if not square > 0:
-            raise InputError("least squares", "columns that rest on each other", "relaxation times that differ")
+            raise InputError("least squares", "columns that depend on each other", "relaxation times that differ")
         row.append(square.sqrt())
         forward.append((moment[i] - sum(map(mul, row, forward))) / row[-1])
         factor.append(row)

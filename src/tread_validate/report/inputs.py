@@ -39,7 +39,7 @@ def inputs_section(tables: Tables, marks: Marks) -> Section:
         Column("Input"),
         Column("Origin"),
         Column("Surrogate, and why", wide=True),
-        Column("Cases that rest on it", numeric=True),
+        Column("Cases that depend on it", numeric=True),
     )
     assumptions = Table(
         "assumptions", "Assumed and synthetic inputs", columns, tuple(rows), empty="None.", csv="assumed.csv"

@@ -95,4 +95,4 @@ class AssumedRow(Row):
     input: str = column("the input")
     origin: str = column("`assumed` or `synthetic`")
     source: str = column("what stands in, and why")
-    cases: int = column("cases that rest on it")
+    cases: int = column("cases that depend on it")

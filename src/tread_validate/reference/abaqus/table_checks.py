@@ -12,7 +12,7 @@ from .tables import Table
 Array = NDArray[np.float64]
 
 DURATION_TOLERANCE = 0.01  # of the pass
-OPEN_END = 0.05  # of the peak, at both ends: corners of a mesh touch a little before the path's first touch
+OPEN_END = 0.05  # of the peak, at both ends: corners of a mesh touch a little before the path's first contact
 LARGEST_TENSION = 0.01  # of the peak
 SAME_TIME = 1e-9  # s
 STRAIN_RANGE = (1e-4, 0.5)  # peak force over plan area over modulus: what a pressed block can have
@@ -21,7 +21,7 @@ LARGEST_SHEAR = 3.0  # peak tangential force over peak normal force
 
 
 def against_reaction(table: Table, reaction: Array, normal: Array, shear: Array) -> str:
-    """Hold the contact force against the road's reaction, which fixes its sign and its frame."""
+    """Compare the contact force with the road's reaction, which fixes its sign and its frame."""
     contact = np.column_stack([-shear, normal])
     scale = float(np.max(np.abs(contact)))
     apart = float(np.max(np.abs(contact - reaction)))
