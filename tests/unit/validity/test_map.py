@@ -35,7 +35,7 @@ def cases(base):
 def point(case, **errors):
     found = {"normal": 0.0, "impulse": 0.0, "tangential": 0.0, **errors}
     kind = f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
-    return Point(case.case_id, kind, groups_of(case), dict.fromkeys(found, 0.0), {"coupled": found})
+    return Point(case.case_id, kind, groups_of(case), dict.fromkeys(found, 0.0), {"condensed": found})
 
 
 def test_a_longer_design_begins_with_the_shorter_one(base, cases):
@@ -94,7 +94,7 @@ def test_a_table_comes_back_as_it_was_written(cases):
     assert [each.case_id for each in again] == [each.case_id for each in points]
     for one, two in zip(points, again, strict=True):
         assert coordinates(two.groups) == pytest.approx(coordinates(one.groups), abs=1e-4)
-        assert two.errors["coupled"] == pytest.approx(one.errors["coupled"], abs=1e-4)
+        assert two.errors["condensed"] == pytest.approx(one.errors["condensed"], abs=1e-4)
     with pytest.raises(InputError, match="map"):
         read_table("a,b\n1,2\n")
 
@@ -129,7 +129,7 @@ def test_the_rule_finds_an_error_that_depends_on_the_groups(cases):
     points = [point(case, normal=2.0 * case.interference / case.height, impulse=0.01) for case in cases]
     rows = tried(cases, points)
     assert len(rows) > 20
-    assert coverage(rows)["coupled", "normal"].interval[1] > 0.9
+    assert coverage(rows)["condensed", "normal"].interval[1] > 0.9
     assert {row["case_id"] for row in rows} <= {each.case_id for each in held_out(points)}
 
 
@@ -142,7 +142,7 @@ def test_limits_of_nine_in_ten_hold_for_points_that_the_rule_never_saw(cases, se
     """
     sizes = 0.01 * np.exp(scatter * np.random.default_rng(seed).standard_normal(len(cases)))
     points = [point(case, normal=float(size)) for case, size in zip(cases, sizes, strict=True)]
-    found = coverage(tried(cases, points))["coupled", "normal"]
+    found = coverage(tried(cases, points))["condensed", "normal"]
     assert found.inside >= found.count * 0.9 - 4.5 * math.sqrt(found.count * 0.09)
 
 
@@ -173,7 +173,7 @@ def test_coverage_says_its_exact_binomial_interval():
 
 def test_errors_of_one_size_need_no_widening(cases):
     points = [point(case, normal=0.01, impulse=0.02, tangential=0.03) for case in cases]
-    assert factors(points, "coupled") == pytest.approx(dict.fromkeys(("normal", "impulse", "tangential"), 1.0))
+    assert factors(points, "condensed") == pytest.approx(dict.fromkeys(("normal", "impulse", "tangential"), 1.0))
 
 
 @pytest.fixture
@@ -214,9 +214,9 @@ def test_a_point_is_run_again_only_where_its_own_code_changed(cases, tmp_path, c
     two = cases[:2]
     assert run_again(two, tmp_path, asked)[1] == dict.fromkeys(("fe", *MODELS), 2)
     assert run_again(two, tmp_path, asked)[1] == {}
-    code["coupled"] = "coupled2"
+    code["condensed"] = "condensed2"
     points, ran = run_again(two, tmp_path, asked)
-    assert ran == {"coupled": 2}
+    assert ran == {"condensed": 2}
     assert all("refused" not in each for each in points)
     code["decks"] = "d2"
     assert run_again(two, tmp_path, asked)[1] == {}
@@ -248,17 +248,17 @@ def test_a_damaged_point_is_run_again(cases, tmp_path, counted):
 def test_the_rule_says_where_it_ends(cases, base):
     points = [point(case, normal=0.01) for case in cases]
     inside = next(case for case in cases[9:] if case.block.mounting == "flat" and not case.is_rig)
-    found = expected_error(inside, "coupled", points)
+    found = expected_error(inside, "condensed", points)
     assert found.outside == ()
     assert found.normal == pytest.approx(0.01)
     assert "expected error of N 1.0 %" in str(found)
     rubbery = replace(inside, compound=inside.compound.model_copy(update={"poissons_ratio": 0.4999}))
-    assert "poisson" in expected_error(rubbery, "coupled", points).outside
+    assert "poisson" in expected_error(rubbery, "condensed", points).outside
     deep = replace(inside, interference=0.3 * inside.height)
-    assert "interference" in expected_error(deep, "coupled", points).outside
+    assert "interference" in expected_error(deep, "condensed", points).outside
     huemer = replace(inside, friction=base.friction, creep_ratio=0.2)
-    assert any("law" in why for why in expected_error(huemer, "coupled", points).outside)
-    few = expected_error(inside, "coupled", points[:NEAREST])
+    assert any("law" in why for why in expected_error(huemer, "condensed", points).outside)
+    few = expected_error(inside, "condensed", points[:NEAREST])
     assert few.normal is None
     assert "outside the map" in str(few)
     assert expected_error(inside, "unknown", points).normal is None
@@ -268,4 +268,4 @@ def test_the_committed_map_is_whole():
     """Every point of the table is finite, and every model has its errors."""
     for each in committed():
         assert all(math.isfinite(value) for value in coordinates(each.groups))
-        assert {"paper", "bonded", "coupled_coarse", "coupled"} <= set(each.errors)
+        assert {"paper", "shape_factor", "condensed_coarse", "condensed"} <= set(each.errors)
