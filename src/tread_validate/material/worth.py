@@ -38,7 +38,7 @@ class Worth:
     errors_over : str
         Over what the errors were taken.
     consistent : bool or None
-        Kramers-Kronig verdict.
+        Kramers-Kronig assessment.
     shift : str
         Where the shift constants come from.
     defaults : tuple of str
@@ -63,7 +63,7 @@ class Worth:
         return max(self.storage_error, self.loss_error)
 
     def lines(self) -> list[str]:
-        """Return the verdict in lines of text, warnings marked."""
+        """Return the assessment in lines of text, warnings marked."""
         low, high = self.needed
         found = [f"compound {self.name}: the runs need {low:.3g} to {high:.3g} rad/s at the data's temperature"]
         if self.known is None:
@@ -81,8 +81,8 @@ class Worth:
                 f"{mark}compound {self.name}: RMS error of E' {e1:.2g} %, of E'' {e2:.2g} % {self.errors_over}"
             )
         if self.consistent is not None:
-            verdict = "consistent" if self.consistent else "NOT consistent"
-            found.append(f"compound {self.name}: E' and E'' are {verdict} with each other (Kramers-Kronig)")
+            assessment = "consistent" if self.consistent else "NOT consistent"
+            found.append(f"compound {self.name}: E' and E'' are {assessment} with each other (Kramers-Kronig)")
         found.append(f"compound {self.name}: shift {self.shift}")
         if self.defaults:
             found.append(f"compound {self.name}: not given, so the paper's: {', '.join(self.defaults)}")
@@ -165,14 +165,14 @@ def _fitted(
         known = (float(low), float(high)) if low is not None and high is not None else None
         found = [quality.get(key) for key in ("storage_rms_percent", "loss_rms_percent")]
         errors = [None if value is None else 0.01 * float(value) for value in found]
-        verdict = quality.get("kramers_kronig_consistent")
+        assessment = quality.get("kramers_kronig_consistent")
         by = told(compound.time_shift)
         said = f"fitted by fit-prony: {by}" if "wlf_c1_deviation" in quality else f"as in the material file: {by}"
         return (
             known,
             (errors[0], errors[1]),
             "over all that was fitted",
-            None if verdict is None else bool(verdict),
+            None if assessment is None else bool(assessment),
             said,
         )
     return None, (None, None), "", None, given
