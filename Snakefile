@@ -17,7 +17,7 @@ include: "workflow/rules/models.smk"
 include: "workflow/rules/fe.smk"
 include: "workflow/rules/compare.smk"
 include: "workflow/rules/mesh.smk"
-include: "workflow/rules/ladder.smk"
+include: "workflow/rules/hierarchy.smk"
 include: "workflow/rules/graph.smk"
 include: "workflow/rules/report.smk"
 

@@ -25,9 +25,9 @@ def command(
         Path | None,
         typer.Option(help="delta table that `check` wrote of these tables"),
     ] = None,
-    ladder: Annotated[
+    hierarchy: Annotated[
         Path | None,
-        typer.Option(help="folder of the model ladder's tables [default: ladder/<study> among the references]"),
+        typer.Option(help="folder of the model hierarchy's tables [default: hierarchy/<study> among the references]"),
     ] = None,
     workflow: Annotated[
         Path | None, typer.Option(help="the workflow's note of its rules; without it their graph is not drawn")
@@ -46,9 +46,9 @@ def command(
     place = Workspace(loaded.model.name)
     tables, spring = tables or place.tables, spring or place.spring
     decks, out = decks or place.decks, out or place.reports
-    ladder = ladder or references / "ladder" / loaded.model.name
+    hierarchy = hierarchy or references / "hierarchy" / loaded.model.name
     todays_tables(tables, loaded)
     build_report(
-        study, tables, spring, references, decks, out, baseline_delta=delta, ladder_dir=ladder, workflow=workflow
+        study, tables, spring, references, decks, out, baseline_delta=delta, hierarchy_dir=hierarchy, workflow=workflow
     )
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

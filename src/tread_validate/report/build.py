@@ -17,7 +17,7 @@ from .claims import claims_table
 from .content import Item, Paragraph, Report, Section
 from .discussion import discussion_section, method_section
 from .error_charts import heatmap, scatter
-from .extra import ladder_section, mesh_table
+from .extra import hierarchy_section, mesh_table
 from .figures import figure_items
 from .figures.workflow import rule_graph
 from .histories import HistoryStore, load_histories
@@ -45,7 +45,7 @@ class Places:
     decks: Path
     out: Path
     baseline_delta: Path | None = None
-    ladder: Path | None = None
+    hierarchy: Path | None = None
     workflow: Path | None = None
 
     @property
@@ -62,7 +62,7 @@ def build_report(
     decks_dir: Path | str,
     out_dir: Path | str,
     baseline_delta: Path | str | None = None,
-    ladder_dir: Path | str | None = None,
+    hierarchy_dir: Path | str | None = None,
     workflow: Path | str | None = None,
 ) -> Report:
     """Write ``index.html``, ``report.pdf``, ``tables/`` and ``figures/`` below `out_dir`.
@@ -81,8 +81,8 @@ def build_report(
         Decks as ``<case_id>/mesh.vtu``, for the mesh sketch; may be missing.
     baseline_delta : path, optional
         The table that ``tread-validate check`` wrote.
-    ladder_dir : path, optional
-        Tables of the model ladder.
+    hierarchy_dir : path, optional
+        Tables of the model hierarchy.
     workflow : path, optional
         The workflow's note of its rules; their graph is drawn from it.
 
@@ -98,7 +98,7 @@ def build_report(
         Path(decks_dir),
         Path(out_dir),
         None if baseline_delta is None else Path(baseline_delta),
-        None if ladder_dir is None else Path(ladder_dir),
+        None if hierarchy_dir is None else Path(hierarchy_dir),
         None if workflow is None else Path(workflow),
     )
     report = compose(Path(study_path), places)
@@ -120,7 +120,7 @@ def compose(study_path: Path, places: Places) -> Report:
     browse, data = browser(tables, views, histories, look, marks)
     heat, data["heat"] = heatmap(tables, views, marks)
     points, data["scatter"] = scatter(tables, views, look, marks)
-    drawn = figures.Studio(
+    drawn = figures.Drawings(
         study, tables, views, histories, look, marks, places.decks, places.reference, places.out / "figures", rig
     )
     delta, moved = baseline_section(places.baseline_delta, marks, places.tables, places.out / "baseline")
@@ -128,7 +128,7 @@ def compose(study_path: Path, places: Places) -> Report:
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
     results += [table for table in (mesh_table(places.reference), sensitivity) if table is not None]
     screen = first_screen(
-        tables, marks, models_table(tables, study, Costs.read(places.ladder, places.models, study), marks), moved,
+        tables, marks, models_table(tables, study, Costs.read(places.hierarchy, places.models, study), marks), moved,
         drawn.overview(),
     )  # fmt: skip
     notes = tuple(Paragraph(text, tone="mute") for text in study.model.notes)
@@ -152,7 +152,7 @@ def compose(study_path: Path, places: Places) -> Report:
         Section("material", "Compound and friction", (*worth_items(study, drawn), *figure_items(drawn.material()))),
         Section("geometry", "Belt, rig and mesh", figure_items(drawn.geometry())),
         Section("route", "From raw data to model input", route_items(study, drawn)),
-        ladder_section(places.ladder, study, places.out / "figures", marks),
+        hierarchy_section(places.hierarchy, study, places.out / "figures", marks),
         inputs_section(tables, marks),
         provenance_section(tables),
         _workflow(places),
