@@ -11,7 +11,7 @@ RENAMED: Mapping[str, str] = {
     "coupled": "condensed",
     "coupled_coarse": "condensed_coarse",
 }
-"""Name until 0.2 -> name since; the old ones go with 0.4."""
+"""Name until 0.1 -> name since; the old ones go with 0.3."""
 
 
 def current_name(name: str) -> str:
@@ -19,7 +19,7 @@ def current_name(name: str) -> str:
     if name not in RENAMED:
         return name
     warnings.warn(
-        f"spring variant {name!r} is called {RENAMED[name]!r} since 0.3; the old name goes with 0.4",
+        f"spring variant {name!r} is called {RENAMED[name]!r} since 0.2; the old name goes with 0.3",
         FutureWarning,
         stacklevel=2,
     )

@@ -30,5 +30,5 @@ def test_the_command_line_says_the_new_name_in_one_line(paper_study):
     done = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
     first, *_ = done.stderr.splitlines()
     assert first.endswith(
-        "spring variant 'coupled_coarse' is called 'condensed_coarse' since 0.3; the old name goes with 0.4"
+        "spring variant 'coupled_coarse' is called 'condensed_coarse' since 0.2; the old name goes with 0.3"
     )

@@ -19,8 +19,8 @@ from tread_validate.history import COLUMNS
 READ = {
     "--mesh",
     "--study", "--user", "--settings", "--deck", "--tangential", "--references", "--decks", "--baseline", "--store",
-    "--spring", "--tables", "--workflow", "--delta", "--hierarchy", "--pitch", "--impulse-response", "--transfer-function",
-    "--convergence", "--frames", "--work", "--models", "--shift-table", "--sweep",
+    "--spring", "--tables", "--workflow", "--delta", "--hierarchy", "--pitch", "--impulse-response",
+    "--transfer-function", "--convergence", "--frames", "--work", "--models", "--shift-table", "--sweep",
 }  # fmt: skip
 HISTORY = ",".join(COLUMNS) + "\n0,0,0,0\n1e-3,{force},0,0\n2e-3,0,0,0\n"
 
