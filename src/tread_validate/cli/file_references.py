@@ -27,26 +27,16 @@ def command(
 
     Example: tread-validate file-references results/liu2010/fe/embedded/*.csv --decks fe_inputs/liu2010
     """
-    import pandas as pd
-
-    from ..compare.scores.energy import energy_shares
     from ..errors import CheckFailedError, InputError
     from ..inp import deck_files
     from ..reference import FeStore
-    from ..reference.filing import Run, drop_unused_blocks, file_run, read_run
+    from ..reference.filing import drop_unused_blocks, file_run, read_run
     from ..reference.mesh_errors import file_mesh_study
 
     store = FeStore(references)
     for result in mesh or []:
         typer.echo(f"filed: {file_mesh_study(store.root / 'mesh', result)}")
-    runs = []
-    for history in histories or []:
-        run = read_run(history, deck_files(decks, history.stem), engine)
-        energies = history.with_name(f"{history.stem}_energies.csv")
-        if energies.is_file():
-            record = {**run.record, "energy": energy_shares(pd.read_csv(energies))}
-            run = Run(run.history_file, record, run.problem, run.text_digest)
-        runs.append(run)
+    runs = [read_run(history, deck_files(decks, history.stem), engine) for history in histories or []]
     refused = []
     for run in runs:
         try:

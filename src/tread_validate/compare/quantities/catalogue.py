@@ -43,7 +43,7 @@ SCALARS = (
              "as the forces; below 0.2 what that is at 0.2", floor=0.02, needs="tangential"),
     Quantity("late_sign_change", "1", "T changes sign again at exit", "", of.late_sign_change, of.untouched,
              Noise(0.0, 0.5), "one", 0.5, "it does or it does not", needs="tangential", flag=True),
-    Quantity("slipping_share", "1", "Share of contact that slips", "", of.slipping_share, of.not_known,
+    Quantity("slipping_share", "1", "Share of the face that slips", "", of.slipping_share, of.not_known,
              Noise(0.0, 2e-3), "one", 0.10, "as the forces", needs="slip", measured=False),
 )  # fmt: skip
 SCALAR = {quantity.name: quantity for quantity in SCALARS}

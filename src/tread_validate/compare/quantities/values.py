@@ -10,7 +10,6 @@ import numpy as np
 from .contact import Contact
 
 SIGN_SHARE = 0.01  # a tangential force below this share of its largest magnitude has no sign
-SLIP_FLOOR = 0.01  # the block slips where more than this share of its touching area does
 LATE_SHARE = 0.10  # the last part of the contact in which a change of sign is looked for
 
 Compute = Callable[[Contact], float]
@@ -71,12 +70,14 @@ def late_sign_change(contact: Contact) -> float:
 
 
 def slipping_share(contact: Contact) -> float:
-    """Return the share of the contact's duration, 0..1, in which more than 1 % of the touching area slips."""
+    """Return the share of the touching area that slips, 0..1, averaged over the contact with N as weight.
+
+    The share of the time in which anything slips would not do: a corner of one node is enough for it, and it falls
+    with the mesh without end.
+    """
     if np.isnan(contact.slipping).any():
         return math.nan
-    slips = contact.slipping > SLIP_FLOOR
-    held = np.sum(np.diff(contact.time) * 0.5 * (slips[1:].astype(float) + slips[:-1].astype(float)))
-    return float(held / contact.duration)
+    return float(np.trapezoid(contact.slipping * contact.normal, contact.time)) / normal_impulse(contact)
 
 
 # One number for the relative error of all forces moves forces and impulses alike. Each returns what it means for a
