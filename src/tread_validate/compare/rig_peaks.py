@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,17 +14,29 @@ from ..study import Case
 from .quantities import SCALAR, SCALARS, Scalars, Tolerances, scalars
 from .runs import Runs, SourceRun
 from .scores.comparison import compare, empty_row, scalar_row
-from .scores.uncertainty import UNIFORM, Uncertainties
+from .scores.uncertainty import Uncertainties
+from .scores.verdict import COVERAGE
 from .tables import MetricRow
 
 MEASURED = "rig:measured"
 NOTHING = "measured rig peaks are not published as numbers and none has been imported"
+UNSTATED = "the record states no uncertainty of measurement (import it anew): u_data is not known"
+HALF_WIDTHS = {
+    "peak_normal_force": "peak_normal_force",
+    "peak_positive_tangential_force": "largest_tangential_force",
+    "peak_negative_tangential_force": "least_tangential_force",
+}
+"""Scalars, and what a record calls their means and 95 % half-widths."""
 NOT_MEASURED = tuple(quantity.name for quantity in SCALARS if not quantity.measured)
 
 
 @dataclass(frozen=True)
 class RigPeak:
-    """An imported record: smallest, mean and largest peak normal force of its passes, N, and the mean history."""
+    """An imported record: smallest, mean and largest peak normal force of its passes, N, and the mean history.
+
+    `uncertainty` are relative standard uncertainties of the means, by quantity: passes, noise and load cell. None where
+    the record does not state them.
+    """
 
     source: str
     lowest: float
@@ -31,6 +44,7 @@ class RigPeak:
     highest: float
     history: History
     assumed: str = ""
+    uncertainty: Mapping[str, float] | None = None
 
     @property
     def spread(self) -> float:
@@ -59,7 +73,30 @@ def rig_peaks(reference_dir: Path, cases: Sequence[Case]) -> dict[str, RigPeak]:
             raise InputError(where, "no peak normal force", "its mean, least and largest value")
         lowest, mean, highest = (float(peaks[name]) for name in names)
         mark = "" if reference.origin == "measured" else f"rig record {reference.name} ({reference.origin})"
-        found[case_id] = RigPeak(f"rig:{reference.origin}", lowest, mean, highest, reference.history, mark)
+        known = _uncertainty(peaks, where)
+        found[case_id] = RigPeak(f"rig:{reference.origin}", lowest, mean, highest, reference.history, mark, known)
+    return found
+
+
+def _uncertainty(peaks: Mapping[str, object], where: str) -> Mapping[str, float] | None:
+    """Turn a record's half-widths of 95 % into relative standard uncertainties, of its histories' amplitudes as well.
+
+    None where it states none for the normal force.
+    """
+    standard, means = {}, {}
+    for name, own in HALF_WIDTHS.items():
+        mean, half = (peaks.get(f"{own}{ending}") for ending in ("_N", "_half_width_95_N"))
+        if isinstance(mean, int | float) and isinstance(half, int | float):
+            if not 0.0 <= half < math.inf:
+                raise InputError(f"{where}.{own}_half_width_95_N", half, "a number of 0 or more")
+            standard[name], means[name] = half / COVERAGE, abs(float(mean))
+    if "peak_normal_force" not in standard:
+        return None
+    found = {name: standard[name] / means[name] for name in standard if means[name] > 0.0}
+    found["normal_force"] = found["peak_normal_force"]
+    both = [name for name in standard if name != "peak_normal_force"]
+    if both and max(means[name] for name in both) > 0.0:
+        found["tangential_force"] = max(standard[name] for name in both) / max(means[name] for name in both)
     return found
 
 
@@ -112,7 +149,7 @@ def _rows(
     inputs: Mapping[str, float] | None,
     judged: Tolerances,
 ) -> list[MetricRow]:
-    """Compare histories; the peak is that of the passes, not of their mean, with their range as its uncertainty.
+    """Compare histories; the peak is that of the passes, not of their mean, with the uncertainty of its record.
 
     The rig does not share the assumed inputs of the study: their spread counts in full, where it is known.
     """
@@ -120,7 +157,7 @@ def _rows(
     assert run.scalars is not None
     names = (case.case_id, peak.source, source)
     quantity = SCALAR["peak_normal_force"]
-    known = Uncertainties({quantity.name: UNIFORM * peak.spread / peak.mean}, run.numerical, inputs)
+    known = Uncertainties(peak.uncertainty, run.numerical, inputs)
     parts = known.of_scalar(quantity, Scalars({quantity.name: peak.mean}), run.scalars)
     own = scalar_row(quantity, peak.mean, run.scalars.peak_normal_force, {}, names, parts, judged)
     try:
@@ -139,8 +176,8 @@ def _rows(
         note = one_line(str(error))
         return [own, replace(empty_row(quantity, None, None, names, judged, "undefined", note), quantity="normal_force",
                              metric="relative_rms")]  # fmt: skip
-    kept = [row for row in rows if row.quantity not in (*NOT_MEASURED, quantity.name)]
-    return [own, *kept]
+    kept = [own, *(row for row in rows if row.quantity not in (*NOT_MEASURED, quantity.name))]
+    return kept if peak.uncertainty is not None else [row.hinted(UNSTATED) for row in kept]
 
 
 def _without(

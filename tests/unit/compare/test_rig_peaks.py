@@ -9,10 +9,18 @@ from typing import Any
 import pytest
 import yaml
 
+from tread_validate.compare.quantities import scalars, tolerances
+from tread_validate.compare.rig_peaks import rig_peaks, rig_rows
+from tread_validate.compare.runs import SourceRun
 from tread_validate.errors import InputError
 from tread_validate.history import History
 from tread_validate.provenance import sha256_file
+from tread_validate.reference.rig import write_rig
+from tread_validate.reference.rig_passes import cut_passes
+from tread_validate.reference.rig_synthetic import synthetic_record
+from tread_validate.study import load_study
 
+CONDITIONS = {"shape": "rectangle", "temperature_degC": 22.0, "interference_mm": 0.2, "speed_m_s": 3.14}
 CASE = "rig-rectangle-22c-0p1mm-300rpm"
 
 
@@ -32,6 +40,7 @@ def write_record(place: Any, origin: str, factor: float = 1.1) -> Path:
             "peak_normal_force_N": peak,
             "peak_normal_force_min_N": 0.95 * peak,
             "peak_normal_force_max_N": 1.05 * peak,
+            "peak_normal_force_half_width_95_N": 0.06 * peak,
         },
     }
     path.with_suffix(".yaml").write_text(yaml.safe_dump(record), encoding="utf-8")
@@ -52,8 +61,8 @@ def test_without_a_record_every_rig_case_says_that_none_was_imported(workspace: 
 
 
 def test_a_measured_record_is_compared_with_its_spread(copy: Any) -> None:
-    """Measured 10 % above the model with +-5 % over the passes: error 1/1.1 - 1 = -9.1 %, its standard uncertainty
-    5 %/sqrt 3 x (1 + 0.091) = 3.1 % from the data. What the assumed inputs make of it is not known here, so nothing can
+    """Measured 10 % above the model, +-6 % with 95 %: error 1/1.1 - 1 = -9.1 %, its standard uncertainty
+    6 %/2 x (1 + 0.091) = 3.3 % from the data. What the assumed inputs make of it is not known here, so nothing can
     be told. Slip is not measured and has no row.
     """
     write_record(copy, "measured")
@@ -68,7 +77,7 @@ def test_a_measured_record_is_compared_with_its_spread(copy: Any) -> None:
     assert "slipping_share" not in quantities
     (peak,) = [row for row in rows if row["quantity"] == "peak_normal_force"]
     assert float(peak["error"]) == pytest.approx(1 / 1.1 - 1, rel=1e-5)
-    assert float(peak["u_data"]) == pytest.approx(0.05 / 3.0**0.5 * (2 - 1 / 1.1), rel=1e-5)
+    assert float(peak["u_data"]) == pytest.approx(0.03 * (2 - 1 / 1.1), rel=1e-5)
     assert (peak["u_input"], peak["uncertainty"], peak["agreement"]) == ("", "", "cannot tell")
     assert peak["assessment"] == "cannot tell"
     measured = [row for row in rows_of(tables, "regression") if row["source"] == "rig:measured"]
@@ -93,3 +102,45 @@ def test_a_record_that_was_changed_by_hand_is_refused(copy: Any) -> None:
     path.write_text(path.read_text(encoding="utf-8") + "9.0,0.0,0.0,0.0\n", encoding="utf-8")
     with pytest.raises(InputError, match="checksum"):
         copy.build()
+
+
+@pytest.mark.parametrize(
+    ("noise", "said"), [(0.5, "adequate"), (8.0, "adequate"), (18.0, "cannot tell")], ids=["quiet", "loud", "louder"]
+)
+def test_noise_of_the_record_takes_a_verdict_away(
+    tmp_path: Path, paper_study: Path, noise: float, said: str
+) -> None:
+    """A model 5 % above the rig, 10 % allowed: U = 2 u_data stays below 5 % until the record's noise is some 12 N.
+
+    Nothing but the noise of the synthetic record differs; it reaches the assessment through the record's half-width.
+    """
+    cases = [case for case in load_study(paper_study).cases() if case.case_id == "rig-rectangle-22c-0p2mm-300rpm"]
+    made = synthetic_record(noise=noise, variation=0.01, drift=0.0, revolutions=24).record
+    (tmp_path / "rig").mkdir()
+    write_rig(tmp_path / "rig", "one", cut_passes(made), "synthetic", "for the test", cases[0].case_id, CONDITIONS, {})
+    peaks = rig_peaks(tmp_path, cases)
+    (peak,) = peaks.values()
+    above = 1.05 * peak.mean / float(peak.history.normal_force.max())
+    base = peak.history
+    model = History(base.time, above * base.normal_force, above * base.tangential_force, base.slipping_fraction)
+    name, exact = ("model:a", cases[0].case_id), {"peak_normal_force": 0.0}
+    runs = {name: SourceRun(*name, "current", "", model, scalars(model), numerical=exact)}
+    rows = rig_rows(cases, runs, ["model:a"], peaks, {"rig": exact}, tolerances())
+    row = next(row for row in rows if row.quantity == "peak_normal_force")
+    assert row.error == pytest.approx(0.05, abs=1e-6)
+    assert peak.uncertainty is not None
+    assert row.u_data == pytest.approx(1.05 * peak.uncertainty["peak_normal_force"], rel=1e-3)
+    assert row.verdict == said
+
+
+def test_a_record_without_half_widths_leaves_the_data_uncertainty_unknown(copy: Any) -> None:
+    """As records of before had it: no u_data, nothing can be told, and the rows say why."""
+    path = write_record(copy, "measured").with_suffix(".yaml")
+    record = yaml.safe_load(path.read_text(encoding="utf-8"))
+    del record["peaks"]["peak_normal_force_half_width_95_N"]
+    path.write_text(yaml.safe_dump(record), encoding="utf-8")
+    rows = [row for row in rows_of(copy.build(), "errors") if row["reference_source"] == "rig:measured"]
+    (peak,) = [row for row in rows if (row["case_id"], row["predicted_source"]) == (CASE, "spring:paper")
+               and row["quantity"] == "peak_normal_force"]  # fmt: skip
+    assert (peak["u_data"], peak["verdict"]) == ("", "cannot tell")
+    assert "states no uncertainty of measurement" in peak["note"]

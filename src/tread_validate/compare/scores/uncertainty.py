@@ -13,7 +13,6 @@ Names = tuple[str, str, str]
 TANGENTIAL_PEAKS = ("peak_positive_tangential_force", "peak_negative_tangential_force")
 
 SAFETY = 1.25  # of a Richardson extrapolation from three meshes: Roache's GCI, 95 %
-UNIFORM = 3.0**-0.5  # standard uncertainty of a value anywhere within a range, over half the range
 
 
 @dataclass(frozen=True)
