@@ -13,9 +13,9 @@ from ..reference.rig import load_rig
 from ..study import Case
 from .quantities import SCALAR, SCALARS, Scalars, Tolerances, scalars
 from .runs import Runs, SourceRun
+from .scores.assessment import COVERAGE
 from .scores.comparison import compare, empty_row, scalar_row
 from .scores.uncertainty import Uncertainties
-from .scores.verdict import COVERAGE
 from .tables import MetricRow
 
 MEASURED = "rig:measured"

@@ -107,9 +107,7 @@ def test_a_record_that_was_changed_by_hand_is_refused(copy: Any) -> None:
 @pytest.mark.parametrize(
     ("noise", "said"), [(0.5, "adequate"), (8.0, "adequate"), (18.0, "cannot tell")], ids=["quiet", "loud", "louder"]
 )
-def test_noise_of_the_record_takes_a_verdict_away(
-    tmp_path: Path, paper_study: Path, noise: float, said: str
-) -> None:
+def test_noise_of_the_record_takes_a_verdict_away(tmp_path: Path, paper_study: Path, noise: float, said: str) -> None:
     """A model 5 % above the rig, 10 % allowed: U = 2 u_data stays below 5 % until the record's noise is some 12 N.
 
     Nothing but the noise of the synthetic record differs; it reaches the assessment through the record's half-width.
