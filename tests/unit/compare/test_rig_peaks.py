@@ -107,7 +107,9 @@ def test_a_record_that_was_changed_by_hand_is_refused(copy: Any) -> None:
 @pytest.mark.parametrize(
     ("noise", "said"), [(0.5, "adequate"), (8.0, "adequate"), (18.0, "cannot tell")], ids=["quiet", "loud", "louder"]
 )
-def test_noise_of_the_record_takes_a_verdict_away(tmp_path: Path, paper_study: Path, noise: float, said: str) -> None:
+def test_noise_of_the_record_takes_an_assessment_away(
+    tmp_path: Path, paper_study: Path, noise: float, said: str
+) -> None:
     """A model 5 % above the rig, 10 % allowed: U = 2 u_data stays below 5 % until the record's noise is some 12 N.
 
     Nothing but the noise of the synthetic record differs; it reaches the assessment through the record's half-width.
@@ -128,7 +130,7 @@ def test_noise_of_the_record_takes_a_verdict_away(tmp_path: Path, paper_study: P
     assert row.error == pytest.approx(0.05, abs=1e-6)
     assert peak.uncertainty is not None
     assert row.u_data == pytest.approx(1.05 * peak.uncertainty["peak_normal_force"], rel=1e-3)
-    assert row.verdict == said
+    assert row.assessment == said
 
 
 def test_a_record_without_half_widths_leaves_the_data_uncertainty_unknown(copy: Any) -> None:
@@ -140,5 +142,5 @@ def test_a_record_without_half_widths_leaves_the_data_uncertainty_unknown(copy: 
     rows = [row for row in rows_of(copy.build(), "errors") if row["reference_source"] == "rig:measured"]
     (peak,) = [row for row in rows if (row["case_id"], row["predicted_source"]) == (CASE, "spring:paper")
                and row["quantity"] == "peak_normal_force"]  # fmt: skip
-    assert (peak["u_data"], peak["verdict"]) == ("", "cannot tell")
+    assert (peak["u_data"], peak["assessment"]) == ("", "cannot tell")
     assert "states no uncertainty of measurement" in peak["note"]
