@@ -23,7 +23,7 @@ from tread_validate.fe import run_deck
 from tread_validate.study import Block, Case, DeckSettings
 
 FloatArray = NDArray[np.float64]
-SETTINGS = DeckSettings(element_size_mm=2.0, layers=5)
+SETTINGS = DeckSettings(element_size_mm=2.0, layers=5, symmetry="full")
 PLAIN = {
     "origin": "assumed", "source": "test", "shape": "rectangle", "length_mm": 24.0, "width_mm": 18.0, "height_mm": 8.0,
     "mounting": "flat",

@@ -45,7 +45,7 @@ def test_calculix_presses_the_deck_mesh_to_the_known_force(
     """
     if shutil.which("ccx") is None:
         pytest.fail("CalculiX (ccx) is not installed: apt-get install calculix-ccx")
-    settings = DeckSettings(element_size_mm=1.25, layers=8, refinement=1.0)
+    settings = DeckSettings(element_size_mm=1.25, layers=8, refinement=1.0, symmetry="full")
     built = deck.build(replace(belt_case, deck=settings), single_file=True)
     text = built.input_text
     section = re.search(r"\*ELEMENT.*?(?=\*SURFACE)", text, re.DOTALL)

@@ -68,6 +68,7 @@ def test_changing_speed_and_interference_by_hand_is_the_deck_of_that_speed_and_i
     What is left is the lead-in, which a change of speed shortens, and the first contact, taken to second order.
     """
     case = coarse(request.getfixturevalue(kind))
+    case = replace(case, deck=case.deck.model_copy(update={"symmetry": "full"}))  # no sample meets a row's impact
     other = replace(case, speed=1.1 * case.speed, interference=1.15 * case.interference)
     deck.write(case, tmp_path / "a")
     deck.write(other, tmp_path / "b")
@@ -102,6 +103,18 @@ def test_half_a_block_gives_the_forces_of_the_whole(belt_case: Case, coarse: Coa
     for name in ("normal_force", "tangential_force"):
         np.testing.assert_allclose(getattr(half.history, name), getattr(full.history, name), atol=1e-8 * scale)
     np.testing.assert_allclose(half.energies.iloc[-1, 1:], full.energies.iloc[-1, 1:], rtol=1e-6, atol=1e-12)
+    road = [result.nodes[["rf_x_N", "rf_y_N"]].to_numpy() for result in results]
+    np.testing.assert_allclose(road[1], road[0], atol=1e-6 * scale)
+    faces = [result.face.round(9).sort_values(["x_m", "z_m"]).to_numpy() for result in results]
+    np.testing.assert_allclose(faces[1], faces[0], rtol=1e-5, atol=1e-5 * faces[0].max())
+
+
+def test_a_study_models_rectangles_by_halves_and_parallelograms_whole(cases: tuple[Case, ...]) -> None:
+    """`auto`, which the paper's study states."""
+    for case in {one.block_name: one for one in cases}.values():
+        whole = replace(case, deck=case.deck.model_copy(update={"symmetry": "full"}))
+        elements = [deck.build(one).elements.shape[0] for one in (case, whole)]
+        assert elements == ([4000, 4000] if case.block.shape == "parallelogram" else [2000, 4000])
 
 
 @pytest.mark.parametrize("changes", [{"shape": "parallelogram", "skew_deg": 20.0}])

@@ -80,10 +80,7 @@ def block_mesh(block: Block, settings: DeckSettings, root: Path | None = None) -
     InputError
         More than two million elements, half of a block without a plane of symmetry, or a mesh file that is no block.
     """
-    half = settings.symmetry == "half"
-    if half and (block.shape != "rectangle" or block.mesh is not None):
-        found = "a mesh file" if block.mesh is not None else f"a {block.shape}"
-        raise InputError("deck.symmetry", f"half of {found}", "a rectangle, which z = 0 halves")
+    half = _is_halved(block, settings)
     if block.mesh is not None:
         from .mesh_file import mesh_of_file
 
@@ -100,6 +97,17 @@ def block_mesh(block: Block, settings: DeckSettings, root: Path | None = None) -
     if block.draft_deg:
         mesh = _drafted(mesh, block)
     return replace(mesh, symmetry_nodes=np.flatnonzero(mesh.z == 0.0)) if half else mesh
+
+
+def _is_halved(block: Block, settings: DeckSettings) -> bool:
+    """Whether the mesh is that of z >= 0 alone; `InputError` where half is asked of a block without that plane."""
+    if settings.symmetry == "full":
+        return False
+    symmetric = block.shape == "rectangle" and block.mesh is None
+    if settings.symmetry == "half" and not symmetric:
+        found = "a mesh file" if block.mesh is not None else f"a {block.shape}"
+        raise InputError("deck.symmetry", f"half of {found}", "a rectangle, which z = 0 halves")
+    return symmetric
 
 
 def layer_fractions(layers: int, refinement: float) -> FloatArray:

@@ -5,9 +5,9 @@ numbers, and every row of a block's working set lies in one flat array at an off
 inner loops over lanes become vector instructions.
 
 Formulation (docs/fe_engine.md): uniform-gradient hexahedron in the reference configuration (Flanagan and Belytschko,
-doi:10.1002/nme.1620170504), polar decomposition F = R U, strain increment sym(dU U_mid^-1) in the rotated frame (the
-Green-Naghdi rate form), Prony recursion exact for a strain that is linear over the step, forces from the first
-Piola-Kirchhoff stress.
+doi:10.1002/nme.1620170504), polar decomposition F = R U (Hoger and Carlson, Q. Appl. Math. 42 (1984) 113-117), strain
+increment sym(dU U_mid^-1) in the rotated frame (the Green-Naghdi rate form), Prony recursion exact for a strain that is
+linear over the step, forces from the first Piola-Kirchhoff stress.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ GEO_ROWS = 41
 # 23) and bulk viscous pressure times J at the end of the increment before.
 STATE_U, STATE_STRAIN, STATE_BULK, STATE_WORK, STATE_STRESS, STATE_VISCOUS = 0, 6, 12, 13, 14, 20
 STATE_ROWS = 21
-# Rows of the working set: displacements, later forces (24), F (9), R (9), hourglass (12), strain increment (6),
-# hereditary strain (6), J U^-1 and J (7), Piola-Kirchhoff stress (9), then copies of geometry and state.
-_U, _F, _R, _Q, _D, _S, _I, _P, _G, _T = 0, 24, 33, 42, 54, 60, 66, 73, 82, 123
-WORK_ROWS = 144
+# Rows of the working set: displacements (24), F (9), hourglass (12), C = F^T F (6), first two invariants of C and of U
+# (4), strain increment (6), hereditary strain (6), J U^-1 and J (7), Piola-Kirchhoff stress (9), least J (1).
+_U, _F, _Q, _C, _V, _D, _S, _I, _P, _W = 0, 24, 33, 45, 51, 55, 61, 67, 74, 83
+WORK_ROWS = 84
 
 
 @kernel(fastmath=FAST, boundscheck=False)
@@ -62,17 +62,12 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
     terms = hist.shape[1]
     u1 = u.reshape(-1)
     c1 = conn.reshape(-1)
-    g1 = geo.reshape(-1)
-    s1 = state.reshape(-1)
     h1 = hist.reshape(-1)
-    o1 = out.reshape(-1)
     w = work
-    worst = 1e30
+    for i in range(n):
+        w[_W * n + i] = 1e30
     for b in range(first, last):
         cb = b * 8 * n
-        gb = b * GEO_ROWS * n
-        sb = b * STATE_ROWS * n
-        ob = b * 24 * n
         k = kind[b]
         for a in range(8):
             for i in range(n):
@@ -82,10 +77,9 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 w[(_U + 3 * a) * n + i] = u1[at]
                 w[(_U + 3 * a + 1) * n + i] = u1[at + 1]
                 w[(_U + 3 * a + 2) * n + i] = u1[at + 2]
-        for i in range(GEO_ROWS * n):
-            w[_G * n + i] = g1[gb + i]
-        for i in range(STATE_ROWS * n):
-            w[_T * n + i] = s1[sb + i]
+        # slices: indices into them cannot be negative, else every access goes through gather and scatter instructions
+        fixed = geo.reshape(-1)[b * GEO_ROWS * n : (b + 1) * GEO_ROWS * n]
+        kept = state.reshape(-1)[b * STATE_ROWS * n : (b + 1) * STATE_ROWS * n]
         # deformation gradient
         for c in range(3):
             for i in range(n):
@@ -94,9 +88,9 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 z = 0.0
                 for a in range(8):
                     d = w[(_U + 3 * a + c) * n + i]
-                    x += d * w[(_G + GEO_B + a) * n + i]
-                    y += d * w[(_G + GEO_B + 8 + a) * n + i]
-                    z += d * w[(_G + GEO_B + 16 + a) * n + i]
+                    x += d * fixed[(GEO_B + a) * n + i]
+                    y += d * fixed[(GEO_B + 8 + a) * n + i]
+                    z += d * fixed[(GEO_B + 16 + a) * n + i]
                 w[(_F + 3 * c) * n + i] = x
                 w[(_F + 3 * c + 1) * n + i] = y
                 w[(_F + 3 * c + 2) * n + i] = z
@@ -126,65 +120,23 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 q1 = m01 - m23 - m45 + m67
                 q2 = m01 + m23 + m45 + m67
                 q3 = -m01 - m23 + m45 + m67
-                g = (_G + GEO_G) * n + i
-                w[(_Q + c) * n + i] = 0.125 * (q0 - fx * w[g] - fy * w[g + n] - fz * w[g + 2 * n])
-                w[(_Q + 3 + c) * n + i] = 0.125 * (q1 - fx * w[g + 3 * n] - fy * w[g + 4 * n] - fz * w[g + 5 * n])
-                w[(_Q + 6 + c) * n + i] = 0.125 * (q2 - fx * w[g + 6 * n] - fy * w[g + 7 * n] - fz * w[g + 8 * n])
-                w[(_Q + 9 + c) * n + i] = 0.125 * (q3 - fx * w[g + 9 * n] - fy * w[g + 10 * n] - fz * w[g + 11 * n])
+                g = GEO_G * n + i
+                w[(_Q + c) * n + i] = 0.125 * (q0 - fx * fixed[g] - fy * fixed[g + n] - fz * fixed[g + 2 * n])
+                w[(_Q + 3 + c) * n + i] = 0.125 * (
+                    q1 - fx * fixed[g + 3 * n] - fy * fixed[g + 4 * n] - fz * fixed[g + 5 * n]
+                )
+                w[(_Q + 6 + c) * n + i] = 0.125 * (
+                    q2 - fx * fixed[g + 6 * n] - fy * fixed[g + 7 * n] - fz * fixed[g + 8 * n]
+                )
+                w[(_Q + 9 + c) * n + i] = 0.125 * (
+                    q3 - fx * fixed[g + 9 * n] - fy * fixed[g + 10 * n] - fz * fixed[g + 11 * n]
+                )
         for i in range(n):
             w[_F * n + i] += 1.0
             w[(_F + 4) * n + i] += 1.0
             w[(_F + 8) * n + i] += 1.0
-        # rotation: Newton's iteration R <- (R + R^-T)/2 from R = F (Higham, doi:10.1137/0907079), quadratic
-        for i in range(9 * n):
-            w[_R * n + i] = w[_F * n + i]
-        for _ in range(12):
-            change = 0.0
-            for i in range(n):
-                a00 = w[_R * n + i]
-                a01 = w[(_R + 1) * n + i]
-                a02 = w[(_R + 2) * n + i]
-                a10 = w[(_R + 3) * n + i]
-                a11 = w[(_R + 4) * n + i]
-                a12 = w[(_R + 5) * n + i]
-                a20 = w[(_R + 6) * n + i]
-                a21 = w[(_R + 7) * n + i]
-                a22 = w[(_R + 8) * n + i]
-                k00 = a11 * a22 - a12 * a21
-                k01 = a12 * a20 - a10 * a22
-                k02 = a10 * a21 - a11 * a20
-                h = 0.5 / (a00 * k00 + a01 * k01 + a02 * k02)
-                r00 = 0.5 * a00 + h * k00
-                r01 = 0.5 * a01 + h * k01
-                r02 = 0.5 * a02 + h * k02
-                r10 = 0.5 * a10 + h * (a02 * a21 - a01 * a22)
-                r11 = 0.5 * a11 + h * (a00 * a22 - a02 * a20)
-                r12 = 0.5 * a12 + h * (a01 * a20 - a00 * a21)
-                r20 = 0.5 * a20 + h * (a01 * a12 - a02 * a11)
-                r21 = 0.5 * a21 + h * (a02 * a10 - a00 * a12)
-                r22 = 0.5 * a22 + h * (a00 * a11 - a01 * a10)
-                w[_R * n + i] = r00
-                w[(_R + 1) * n + i] = r01
-                w[(_R + 2) * n + i] = r02
-                w[(_R + 3) * n + i] = r10
-                w[(_R + 4) * n + i] = r11
-                w[(_R + 5) * n + i] = r12
-                w[(_R + 6) * n + i] = r20
-                w[(_R + 7) * n + i] = r21
-                w[(_R + 8) * n + i] = r22
-                t0 = r00 - a00
-                t1 = r01 - a01
-                t2 = r02 - a02
-                t3 = r10 - a10
-                t4 = r11 - a11
-                t5 = r12 - a12
-                t6 = r20 - a20
-                t7 = r21 - a21
-                t8 = r22 - a22
-                change += t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3 + t4 * t4 + t5 * t5 + t6 * t6 + t7 * t7 + t8 * t8
-            if not change > 1e-15:
-                break
-        # stretch, its increment, the strain increment in the rotated frame, U^-1 and J
+        # C = F^T F, det F and the invariants of U: I^2 = I_C + 2 II, II^2 = II_C + 2 III I by Newton's
+        # iteration from those of the stretch before
         for i in range(n):
             f00 = w[_F * n + i]
             f01 = w[(_F + 1) * n + i]
@@ -195,34 +147,87 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             f20 = w[(_F + 6) * n + i]
             f21 = w[(_F + 7) * n + i]
             f22 = w[(_F + 8) * n + i]
-            r00 = w[_R * n + i]
-            r01 = w[(_R + 1) * n + i]
-            r02 = w[(_R + 2) * n + i]
-            r10 = w[(_R + 3) * n + i]
-            r11 = w[(_R + 4) * n + i]
-            r12 = w[(_R + 5) * n + i]
-            r20 = w[(_R + 6) * n + i]
-            r21 = w[(_R + 7) * n + i]
-            r22 = w[(_R + 8) * n + i]
-            u0 = r00 * f00 + r10 * f10 + r20 * f20
-            u1_ = r01 * f01 + r11 * f11 + r21 * f21
-            u2 = r02 * f02 + r12 * f12 + r22 * f22
-            u3 = 0.5 * (r00 * f01 + r10 * f11 + r20 * f21 + r01 * f00 + r11 * f10 + r21 * f20)
-            u4 = 0.5 * (r00 * f02 + r10 * f12 + r20 * f22 + r02 * f00 + r12 * f10 + r22 * f20)
-            u5 = 0.5 * (r01 * f02 + r11 * f12 + r21 * f22 + r02 * f01 + r12 * f11 + r22 * f21)
-            su = (_T + STATE_U) * n + i
-            v0 = w[su]
-            v1 = w[su + n]
-            v2 = w[su + 2 * n]
-            v3 = w[su + 3 * n]
-            v4 = w[su + 4 * n]
-            v5 = w[su + 5 * n]
-            w[su] = u0
-            w[su + n] = u1_
-            w[su + 2 * n] = u2
-            w[su + 3 * n] = u3
-            w[su + 4 * n] = u4
-            w[su + 5 * n] = u5
+            c0 = f00 * f00 + f10 * f10 + f20 * f20
+            c1_ = f01 * f01 + f11 * f11 + f21 * f21
+            c2 = f02 * f02 + f12 * f12 + f22 * f22
+            c3 = f00 * f01 + f10 * f11 + f20 * f21
+            c4 = f00 * f02 + f10 * f12 + f20 * f22
+            c5 = f01 * f02 + f11 * f12 + f21 * f22
+            jacobian = f00 * (f11 * f22 - f12 * f21) + f01 * (f12 * f20 - f10 * f22) + f02 * (f10 * f21 - f11 * f20)
+            w[_C * n + i] = c0
+            w[(_C + 1) * n + i] = c1_
+            w[(_C + 2) * n + i] = c2
+            w[(_C + 3) * n + i] = c3
+            w[(_C + 4) * n + i] = c4
+            w[(_C + 5) * n + i] = c5
+            w[(_I + 6) * n + i] = jacobian
+            w[_V * n + i] = c0 + c1_ + c2
+            w[(_V + 1) * n + i] = (c0 * c1_ - c3 * c3) + (c0 * c2 - c4 * c4) + (c1_ * c2 - c5 * c5)
+            su = STATE_U * n + i
+            v0 = kept[su]
+            v1 = kept[su + n]
+            v2 = kept[su + 2 * n]
+            v3 = kept[su + 3 * n]
+            v4 = kept[su + 4 * n]
+            v5 = kept[su + 5 * n]
+            w[(_V + 2) * n + i] = v0 + v1 + v2
+            w[(_V + 3) * n + i] = (v0 * v1 - v3 * v3) + (v0 * v2 - v4 * v4) + (v1 * v2 - v5 * v5)
+        for _ in range(20):
+            change = 0.0
+            for i in range(n):
+                jacobian = w[(_I + 6) * n + i]
+                trace = w[(_V + 2) * n + i]
+                minors = w[(_V + 3) * n + i]
+                x = trace * trace - 2.0 * minors - w[_V * n + i]
+                y = minors * minors - 2.0 * jacobian * trace - w[(_V + 1) * n + i]
+                h = 0.5 / (trace * minors - jacobian)
+                t0 = h * (minors * x + y)
+                t1 = h * (jacobian * x + trace * y)
+                w[(_V + 2) * n + i] = trace - t0
+                w[(_V + 3) * n + i] = minors - t1
+                change += t0 * t0 + t1 * t1
+            if not change > 1e-15:
+                break
+        # stretch by the theorem of Cayley and Hamilton, its increment, the rotated frame's strain increment and J U^-1
+        for i in range(n):
+            c0 = w[_C * n + i]
+            c1_ = w[(_C + 1) * n + i]
+            c2 = w[(_C + 2) * n + i]
+            c3 = w[(_C + 3) * n + i]
+            c4 = w[(_C + 4) * n + i]
+            c5 = w[(_C + 5) * n + i]
+            jacobian = w[(_I + 6) * n + i]
+            trace = w[(_V + 2) * n + i]
+            minors = w[(_V + 3) * n + i]
+            h = 1.0 / (trace * minors - jacobian)
+            x = h * (trace * trace - minors)
+            y = h * trace * jacobian
+            u0 = y + x * c0 - h * (c0 * c0 + c3 * c3 + c4 * c4)
+            u1_ = y + x * c1_ - h * (c3 * c3 + c1_ * c1_ + c5 * c5)
+            u2 = y + x * c2 - h * (c4 * c4 + c5 * c5 + c2 * c2)
+            u3 = x * c3 - h * (c0 * c3 + c3 * c1_ + c4 * c5)
+            u4 = x * c4 - h * (c0 * c4 + c3 * c5 + c4 * c2)
+            u5 = x * c5 - h * (c3 * c4 + c1_ * c5 + c5 * c2)
+            # the adjugate of U
+            w[_I * n + i] = c0 - trace * u0 + minors
+            w[(_I + 1) * n + i] = c1_ - trace * u1_ + minors
+            w[(_I + 2) * n + i] = c2 - trace * u2 + minors
+            w[(_I + 3) * n + i] = c3 - trace * u3
+            w[(_I + 4) * n + i] = c4 - trace * u4
+            w[(_I + 5) * n + i] = c5 - trace * u5
+            su = STATE_U * n + i
+            v0 = kept[su]
+            v1 = kept[su + n]
+            v2 = kept[su + 2 * n]
+            v3 = kept[su + 3 * n]
+            v4 = kept[su + 4 * n]
+            v5 = kept[su + 5 * n]
+            kept[su] = u0
+            kept[su + n] = u1_
+            kept[su + 2 * n] = u2
+            kept[su + 3 * n] = u3
+            kept[su + 4 * n] = u4
+            kept[su + 5 * n] = u5
             m0 = 0.5 * (u0 + v0)
             m1 = 0.5 * (u1_ + v1)
             m2 = 0.5 * (u2 + v2)
@@ -256,19 +261,8 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             w[(_D + 3) * n + i] = 0.5 * (v0 * k4 + v3 * k5 + v4 * k2 + v4 * k0 + v5 * k3 + v2 * k4)
             w[(_D + 4) * n + i] = 0.5 * (v3 * k4 + v1 * k5 + v5 * k2 + v4 * k3 + v5 * k1 + v2 * k5)
             w[(_D + 5) * n + i] = volume
-            k0 = u1_ * u2 - u5 * u5
-            k3 = u4 * u5 - u3 * u2
-            k4 = u3 * u5 - u1_ * u4
-            # J U^-1 is the adjugate of U
-            w[_I * n + i] = k0
-            w[(_I + 1) * n + i] = u0 * u2 - u4 * u4
-            w[(_I + 2) * n + i] = u0 * u1_ - u3 * u3
-            w[(_I + 3) * n + i] = k3
-            w[(_I + 4) * n + i] = k4
-            w[(_I + 5) * n + i] = u3 * u4 - u0 * u5
-            w[(_I + 6) * n + i] = u0 * k0 + u3 * k3 + u4 * k4
         for i in range(n):
-            worst = min(worst, w[(_I + 6) * n + i])
+            w[_W * n + i] = min(w[_W * n + i], w[(_I + 6) * n + i])
         # long-term strain, then the Prony terms: rows 0-4 deviator, row 5 volume
         same = True
         for t in range(terms):
@@ -277,8 +271,8 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
         for c in range(6):
             ratio = elastic[k, 2] if c < 5 else elastic[k, 3]
             for i in range(n):
-                e = w[(_T + STATE_STRAIN + c) * n + i] + w[(_D + c) * n + i]
-                w[(_T + STATE_STRAIN + c) * n + i] = e
+                e = kept[(STATE_STRAIN + c) * n + i] + w[(_D + c) * n + i]
+                kept[(STATE_STRAIN + c) * n + i] = e
                 w[(_S + c) * n + i] = ratio * e + damp * w[(_D + c) * n + i]
         t = 0
         while t + 4 <= terms and same:
@@ -319,9 +313,7 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
         for i in range(n):
             rate = w[(_D + 5) * n + i] / dt
             squeeze = min(rate, 0.0)
-            viscous = (
-                w[(_G + GEO_BULK_LINEAR) * n + i] * rate - w[(_G + GEO_BULK_QUADRATIC) * n + i] * squeeze * squeeze
-            )
+            viscous = fixed[GEO_BULK_LINEAR * n + i] * rate - fixed[GEO_BULK_QUADRATIC * n + i] * squeeze * squeeze
             d0 = w[_S * n + i]
             d1 = w[(_S + 1) * n + i]
             mean = bulk * w[(_S + 5) * n + i]
@@ -339,31 +331,31 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             e2 = third - e0 - e1
             e0 += third
             e1 += third
-            so = (_T + STATE_STRESS) * n + i
-            half = 0.5 * w[(_G + GEO_VOLUME) * n + i]
+            so = STATE_STRESS * n + i
+            half = 0.5 * fixed[GEO_VOLUME * n + i]
             z00 = jacobian * t0
             z01 = jacobian * t1
             z02 = jacobian * t2
             z10 = jacobian * t3
             z11 = jacobian * t4
             z12 = jacobian * t5
-            w[(_T + STATE_WORK) * n + i] += half * (
-                (w[so] + z00) * e0
-                + (w[so + n] + z01) * e1
-                + (w[so + 2 * n] + z02) * e2
-                + 2.0 * (w[so + 3 * n] + z10) * w[(_D + 2) * n + i]
-                + 2.0 * (w[so + 4 * n] + z11) * w[(_D + 3) * n + i]
-                + 2.0 * (w[so + 5 * n] + z12) * w[(_D + 4) * n + i]
+            kept[STATE_WORK * n + i] += half * (
+                (kept[so] + z00) * e0
+                + (kept[so + n] + z01) * e1
+                + (kept[so + 2 * n] + z02) * e2
+                + 2.0 * (kept[so + 3 * n] + z10) * w[(_D + 2) * n + i]
+                + 2.0 * (kept[so + 4 * n] + z11) * w[(_D + 3) * n + i]
+                + 2.0 * (kept[so + 5 * n] + z12) * w[(_D + 4) * n + i]
             )
-            w[so] = z00
-            w[so + n] = z01
-            w[so + 2 * n] = z02
-            w[so + 3 * n] = z10
-            w[so + 4 * n] = z11
-            w[so + 5 * n] = z12
+            kept[so] = z00
+            kept[so + n] = z01
+            kept[so + 2 * n] = z02
+            kept[so + 3 * n] = z10
+            kept[so + 4 * n] = z11
+            kept[so + 5 * n] = z12
             z00 = jacobian * viscous
-            w[(_T + STATE_BULK) * n + i] += half * (w[(_T + STATE_VISCOUS) * n + i] + z00) * w[(_D + 5) * n + i]
-            w[(_T + STATE_VISCOUS) * n + i] = z00
+            kept[STATE_BULK * n + i] += half * (kept[STATE_VISCOUS * n + i] + z00) * w[(_D + 5) * n + i]
+            kept[STATE_VISCOUS * n + i] = z00
             t0 += viscous
             t1 += viscous
             t2 += viscous
@@ -373,46 +365,60 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             k3 = w[(_I + 3) * n + i]
             k4 = w[(_I + 4) * n + i]
             k5 = w[(_I + 5) * n + i]
-            volume = w[(_G + GEO_VOLUME) * n + i]
-            z00 = volume * (t0 * k0 + t3 * k3 + t4 * k4)
-            z01 = volume * (t0 * k3 + t3 * k1 + t4 * k5)
-            z02 = volume * (t0 * k4 + t3 * k5 + t4 * k2)
-            z10 = volume * (t3 * k0 + t1 * k3 + t5 * k4)
-            z11 = volume * (t3 * k3 + t1 * k1 + t5 * k5)
-            z12 = volume * (t3 * k4 + t1 * k5 + t5 * k2)
-            z20 = volume * (t4 * k0 + t5 * k3 + t2 * k4)
-            z21 = volume * (t4 * k3 + t5 * k1 + t2 * k5)
-            z22 = volume * (t4 * k4 + t5 * k5 + t2 * k2)
+            # first Piola-Kirchhoff stress times volume, R T J U^-1 V = F (J U^-1) T (J U^-1) V/J
+            z00 = t0 * k0 + t3 * k3 + t4 * k4
+            z01 = t0 * k3 + t3 * k1 + t4 * k5
+            z02 = t0 * k4 + t3 * k5 + t4 * k2
+            z10 = t3 * k0 + t1 * k3 + t5 * k4
+            z11 = t3 * k3 + t1 * k1 + t5 * k5
+            z12 = t3 * k4 + t1 * k5 + t5 * k2
+            z20 = t4 * k0 + t5 * k3 + t2 * k4
+            z21 = t4 * k3 + t5 * k1 + t2 * k5
+            z22 = t4 * k4 + t5 * k5 + t2 * k2
+            scale = fixed[GEO_VOLUME * n + i] / jacobian
+            t0 = scale * (k0 * z00 + k3 * z10 + k4 * z20)
+            t1 = scale * (k3 * z01 + k1 * z11 + k5 * z21)
+            t2 = scale * (k4 * z02 + k5 * z12 + k2 * z22)
+            t3 = scale * (k0 * z01 + k3 * z11 + k4 * z21)
+            t4 = scale * (k0 * z02 + k3 * z12 + k4 * z22)
+            t5 = scale * (k3 * z02 + k1 * z12 + k5 * z22)
             for c in range(3):
-                r0 = w[(_R + 3 * c) * n + i]
-                r1 = w[(_R + 3 * c + 1) * n + i]
-                r2 = w[(_R + 3 * c + 2) * n + i]
-                w[(_P + 3 * c) * n + i] = r0 * z00 + r1 * z10 + r2 * z20
-                w[(_P + 3 * c + 1) * n + i] = r0 * z01 + r1 * z11 + r2 * z21
-                w[(_P + 3 * c + 2) * n + i] = r0 * z02 + r1 * z12 + r2 * z22
+                r0 = w[(_F + 3 * c) * n + i]
+                r1 = w[(_F + 3 * c + 1) * n + i]
+                r2 = w[(_F + 3 * c + 2) * n + i]
+                w[(_P + 3 * c) * n + i] = r0 * t0 + r1 * t3 + r2 * t4
+                w[(_P + 3 * c + 1) * n + i] = r0 * t3 + r1 * t1 + r2 * t5
+                w[(_P + 3 * c + 2) * n + i] = r0 * t4 + r1 * t5 + r2 * t2
+        forces = out.reshape(-1)[b * 24 * n : (b + 1) * 24 * n]
         # nodal forces, the hourglass part with its offset folded into the stress
         for c in range(3):
             for i in range(n):
-                stiff = 0.125 * w[(_G + GEO_HOURGLASS) * n + i]
+                stiff = 0.125 * fixed[GEO_HOURGLASS * n + i]
                 q0 = stiff * w[(_Q + c) * n + i]
                 q1 = stiff * w[(_Q + 3 + c) * n + i]
                 q2 = stiff * w[(_Q + 6 + c) * n + i]
                 q3 = stiff * w[(_Q + 9 + c) * n + i]
-                g = (_G + GEO_G) * n + i
-                px = w[(_P + 3 * c) * n + i] - q0 * w[g] - q1 * w[g + 3 * n] - q2 * w[g + 6 * n] - q3 * w[g + 9 * n]
+                g = GEO_G * n + i
+                px = (
+                    w[(_P + 3 * c) * n + i]
+                    - q0 * fixed[g]
+                    - q1 * fixed[g + 3 * n]
+                    - q2 * fixed[g + 6 * n]
+                    - q3 * fixed[g + 9 * n]
+                )
                 py = (
                     w[(_P + 3 * c + 1) * n + i]
-                    - q0 * w[g + n]
-                    - q1 * w[g + 4 * n]
-                    - q2 * w[g + 7 * n]
-                    - q3 * w[g + 10 * n]
+                    - q0 * fixed[g + n]
+                    - q1 * fixed[g + 4 * n]
+                    - q2 * fixed[g + 7 * n]
+                    - q3 * fixed[g + 10 * n]
                 )
                 pz = (
                     w[(_P + 3 * c + 2) * n + i]
-                    - q0 * w[g + 2 * n]
-                    - q1 * w[g + 5 * n]
-                    - q2 * w[g + 8 * n]
-                    - q3 * w[g + 11 * n]
+                    - q0 * fixed[g + 2 * n]
+                    - q1 * fixed[g + 5 * n]
+                    - q2 * fixed[g + 8 * n]
+                    - q3 * fixed[g + 11 * n]
                 )
                 hg0 = q0 + q1 + q2 - q3
                 hg1 = q0 - q1 - q2 + q3
@@ -422,20 +428,19 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 hg5 = -q0 + q1 - q2 - q3
                 hg6 = q0 + q1 + q2 + q3
                 hg7 = q0 - q1 - q2 - q3
-                gx = (_G + GEO_B) * n + i
-                gy = (_G + GEO_B + 8) * n + i
-                gz = (_G + GEO_B + 16) * n + i
-                o = (_U + c) * n + i
-                w[o] = hg0 + px * w[gx] + py * w[gy] + pz * w[gz]
-                w[o + 3 * n] = hg1 + px * w[gx + n] + py * w[gy + n] + pz * w[gz + n]
-                w[o + 6 * n] = hg2 + px * w[gx + 2 * n] + py * w[gy + 2 * n] + pz * w[gz + 2 * n]
-                w[o + 9 * n] = hg3 + px * w[gx + 3 * n] + py * w[gy + 3 * n] + pz * w[gz + 3 * n]
-                w[o + 12 * n] = hg4 + px * w[gx + 4 * n] + py * w[gy + 4 * n] + pz * w[gz + 4 * n]
-                w[o + 15 * n] = hg5 + px * w[gx + 5 * n] + py * w[gy + 5 * n] + pz * w[gz + 5 * n]
-                w[o + 18 * n] = hg6 + px * w[gx + 6 * n] + py * w[gy + 6 * n] + pz * w[gz + 6 * n]
-                w[o + 21 * n] = hg7 + px * w[gx + 7 * n] + py * w[gy + 7 * n] + pz * w[gz + 7 * n]
-        for i in range(24 * n):
-            o1[ob + i] = w[_U * n + i]
-        for i in range(STATE_ROWS * n):
-            s1[sb + i] = w[_T * n + i]
+                gx = GEO_B * n + i
+                gy = (GEO_B + 8) * n + i
+                gz = (GEO_B + 16) * n + i
+                o = c * n + i
+                forces[o] = hg0 + px * fixed[gx] + py * fixed[gy] + pz * fixed[gz]
+                forces[o + 3 * n] = hg1 + px * fixed[gx + n] + py * fixed[gy + n] + pz * fixed[gz + n]
+                forces[o + 6 * n] = hg2 + px * fixed[gx + 2 * n] + py * fixed[gy + 2 * n] + pz * fixed[gz + 2 * n]
+                forces[o + 9 * n] = hg3 + px * fixed[gx + 3 * n] + py * fixed[gy + 3 * n] + pz * fixed[gz + 3 * n]
+                forces[o + 12 * n] = hg4 + px * fixed[gx + 4 * n] + py * fixed[gy + 4 * n] + pz * fixed[gz + 4 * n]
+                forces[o + 15 * n] = hg5 + px * fixed[gx + 5 * n] + py * fixed[gy + 5 * n] + pz * fixed[gz + 5 * n]
+                forces[o + 18 * n] = hg6 + px * fixed[gx + 6 * n] + py * fixed[gy + 6 * n] + pz * fixed[gz + 6 * n]
+                forces[o + 21 * n] = hg7 + px * fixed[gx + 7 * n] + py * fixed[gy + 7 * n] + pz * fixed[gz + 7 * n]
+    worst = 1e30
+    for i in range(n):
+        worst = min(worst, w[_W * n + i])
     return worst

@@ -12,7 +12,7 @@ import pandas as pd
 
 from ..files import write_text
 from ..history import History
-from ..inp.symmetry import whole, whole_force
+from ..inp.symmetry import is_half, whole, whole_force
 from ..provenance import sha256_text
 from ..units import DECK_LENGTH, DECK_STRESS
 from ..yaml_text import write_yaml
@@ -117,13 +117,17 @@ def collect(
 
 
 def _nodes(simulation: Simulation) -> pd.DataFrame:
-    """Return the histories of nodes that the last step asks for."""
-    asked = simulation.model.steps[-1].node_history
+    """Return the histories of nodes that the last step asks for; reference nodes of bodies hold the whole block."""
+    model = simulation.model
+    asked = model.steps[-1].node_history
+    references = [body.reference for body in model.rigid_bodies]
     time = np.array(simulation.samples.time)
     parts = []
     for name, request in asked.items():
         state = np.array(simulation.samples.nodes[name])  # (samples, 3, nodes, 3)
-        labels = simulation.model.mesh.node_labels[request.nodes]
+        holds = np.isin(request.nodes, references)
+        state[:, 2, holds] = whole_force(model.deck, state[:, 2, holds])
+        labels = model.mesh.node_labels[request.nodes]
         table = {"time_s": np.repeat(time, labels.size), "nset": name, "node": np.tile(labels, time.size)}
         for row, (word, unit, factor) in enumerate((("U", "m", LENGTH), ("V", "m_s", LENGTH), ("RF", "N", 1.0))):
             if word in request.variables:
@@ -134,7 +138,7 @@ def _nodes(simulation: Simulation) -> pd.DataFrame:
 
 
 def _face(simulation: Simulation) -> pd.DataFrame:
-    """Return the slave face of the first pair half way between the first and the last contact."""
+    """Return the slave face of the first pair half way through contact, a half with its mirror image."""
     columns = ["x_m", "y_m", "z_m", "pressure_Pa", "traction_x_Pa", "traction_z_Pa", "state"]
     s = simulation.samples
     touching = np.flatnonzero([state.size > 0 and bool((state > 0).any()) for state in s.slip_state])
@@ -147,4 +151,10 @@ def _face(simulation: Simulation) -> pd.DataFrame:
     values = np.column_stack([place, s.pressure[middle] / DECK_STRESS, traction[:, 0], traction[:, 2]])
     table = pd.DataFrame(values, columns=columns[:-1])
     table["state"] = s.slip_state[middle]
-    return table
+    return _mirrored(table) if is_half(simulation.model.deck) else table
+
+
+def _mirrored(face: pd.DataFrame) -> pd.DataFrame:
+    """Return a face of z >= 0 with its mirror image."""
+    other = face[face["z_m"] > 0.0]
+    return pd.concat([face, other.assign(z_m=-other["z_m"], traction_z_Pa=-other["traction_z_Pa"])], ignore_index=True)

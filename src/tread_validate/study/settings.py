@@ -54,7 +54,8 @@ class DeckSettings(Strict):
     history_interval_us: Positive = 20.0
     field_frames: Annotated[int, Field(ge=1, le=1000)] = 40
     constant_friction_variant: bool = Field(True, description="also write the deck with built-in constant friction")
-    symmetry: Literal["full", "half"] = Field(
-        "full",
-        description="half: only z >= 0 of a rectangle is meshed, with a plane of symmetry; readers double forces",
+    symmetry: Literal["auto", "half", "full"] = Field(
+        "auto",
+        description="auto: a block that z = 0 halves (a rectangle) is meshed for z >= 0 alone, on a plane of symmetry; "
+        "half: other blocks are refused; full: every block whole. Readers double forces and energies of a half",
     )
