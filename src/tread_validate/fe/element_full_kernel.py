@@ -15,16 +15,6 @@ from __future__ import annotations
 
 from ..kernels import kernel
 from .element_kernel import (
-    _D,
-    _F,
-    _G,
-    _I,
-    _P,
-    _Q,
-    _R,
-    _S,
-    _T,
-    _U,
     FAST,
     GEO_B,
     GEO_BULK_LINEAR,
@@ -41,6 +31,11 @@ from .element_kernel import (
     STATE_WORK,
 )
 
+# Rows of the working set: displacements (24), F (9), R (9), each point's own adjugate, J and mean stress (12), strain
+# increment (6), hereditary strain (6), mean J (7), Piola-Kirchhoff stress (9), then copies of geometry and state.
+_U, _F, _R, _Q, _D, _S, _I, _P, _G = 0, 24, 33, 42, 54, 60, 66, 73, 82
+_T = _G + GEO_ROWS
+FULL_WORK_ROWS = _T + STATE_ROWS
 POINTS = 8
 """Gauss points of an element; an element's lanes never straddle two blocks, as `LANES` is a multiple of it."""
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..errors import EngineError, InputError
 from .blocks import Blocks, pack, set_bulk_viscosity, set_masses
 from .constraints import gather_amplitudes, gather_bodies, gather_loads, gather_prescribed
+from .element_full_kernel import FULL_WORK_ROWS
 from .element_kernel import LANES, WORK_ROWS
 from .energy import kinetic_energy
 from .explicit_kernel import BAD_FRICTION, CHUNKS, INVERTED, advance
@@ -125,7 +126,7 @@ class Simulation:
             elastic=elastic,
             kind=b.kind,
             out=np.zeros((b.kind.size, 24, LANES)),
-            work=np.zeros((CHUNKS, WORK_ROWS * LANES)),
+            work=np.zeros((CHUNKS, max(WORK_ROWS, FULL_WORK_ROWS) * LANES)),
             slots=b.slots,
             slot_start=b.slot_start,
             reduced=np.array([b.reduced_blocks]),
