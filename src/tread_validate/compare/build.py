@@ -9,6 +9,7 @@ from pathlib import Path
 from ..files import read_text, write_text
 from ..reference.published import PUBLISHED
 from ..study import load_study
+from .expected_errors import expected_rows
 from .provenance import assumed_inputs, provenance
 from .regression.line import EXCLUDED_INTERFERENCES
 from .study_comparison import Comparison, compare_study
@@ -21,6 +22,7 @@ from .tables import (
     Coefficient,
     Difference,
     Ensemble,
+    ExpectedRow,
     MetricRow,
     PeakRow,
     Residual,
@@ -76,6 +78,7 @@ def write_tables(found: Comparison, reference_dir: Path, out_dir: Path) -> None:
     write_rows(out_dir, Sensitivity, found.sensitivity)
     write_rows(out_dir, ToleranceRow, map(tolerance_row, found.tolerances.values()))
     write_rows(out_dir, AssumedRow, assumed_inputs(found.cases))
+    write_rows(out_dir, ExpectedRow, expected_rows(found.cases, found.runs, found.sources))
     write_text(out_dir / "published.csv", read_text(reference_dir / PUBLISHED))
     facts = provenance(found.study, found.cases, found.runs, found.sources, reference_dir)
     write_text(out_dir / "provenance.json", json.dumps(facts, indent=2, sort_keys=True) + "\n")

@@ -17,6 +17,7 @@ from .claims import claims_table
 from .content import Item, Paragraph, Report, Section
 from .discussion import discussion_section, method_section
 from .error_charts import heatmap, scatter
+from .expected import expected_section
 from .extra import hierarchy_section, mesh_table
 from .figures import figure_items
 from .figures.workflow import rule_graph
@@ -136,6 +137,7 @@ def compose(study_path: Path, places: Places) -> Report:
         Section("summary", "How far can the models be trusted?", (screen, Paragraph(CAVEAT), *notes)),
         method_section(),
         Section("results", "Results", tuple(results)),
+        expected_section(tables, marks),
         Section(
             "table1",
             "Speed and temperature",

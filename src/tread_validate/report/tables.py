@@ -18,6 +18,7 @@ from ..compare.tables import (
     Coefficient,
     Difference,
     Ensemble,
+    ExpectedRow,
     MetricRow,
     PeakRow,
     PublishedRow,
@@ -40,6 +41,7 @@ class Tables:
     peaks: tuple[PeakRow, ...]
     errors: tuple[MetricRow, ...]
     ensemble: tuple[Ensemble, ...]
+    expected: tuple[ExpectedRow, ...]
     regression: tuple[Coefficient, ...]
     differences: tuple[Difference, ...]
     residuals: tuple[Residual, ...]
@@ -85,6 +87,7 @@ def read_tables(folder: Path | str) -> Tables:
         peaks=read_rows(place / "peaks.csv", PeakRow),
         errors=read_rows(place / "errors.csv", MetricRow),
         ensemble=read_rows(place / "ensemble.csv", Ensemble),
+        expected=read_rows(place / "expected.csv", ExpectedRow),
         regression=read_rows(place / "regression.csv", Coefficient),
         differences=read_rows(place / "regression_differences.csv", Difference),
         residuals=read_rows(place / "regression_residuals.csv", Residual),

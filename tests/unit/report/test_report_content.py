@@ -16,6 +16,7 @@ from tread_validate.report.baseline import baseline_section
 from tread_validate.report.cases import case_views, facets, factor_levels
 from tread_validate.report.claims import claims_table
 from tread_validate.report.content import Table
+from tread_validate.report.expected import expected_section
 from tread_validate.report.histories import HistoryStore, load_histories
 from tread_validate.report.marks import Marks
 from tread_validate.report.models import Costs, models_table, own_words
@@ -51,6 +52,20 @@ def test_only_factors_that_vary_can_be_chosen(tables: Tables) -> None:
     assert set(levels) == {"path", "block", "temperature_degC", "interference_mm", "speed", "creep"}
     assert levels["speed"] == ["150 rpm", "300 rpm", "16.7 m/s"]
     assert levels["creep"] == ["0 %", "free rolling", "0.3 %"]
+
+
+def test_expected_errors_stand_beside_the_actual_ones(tables: Tables, marks: Marks) -> None:
+    """12 % expected, 30 % the limit, 10 % low; outside the map nothing is expected, and the reason is said."""
+    section = expected_section(tables, marks)
+    assert section is not None
+    summary, each = (item for item in section.items if isinstance(item, Table))
+    of_normal = [cell.text.replace(wording.NBSP, " ") for cell in summary.rows[0].cells]
+    assert of_normal[1:5] == [f"{len(tables.cases)} of {len(tables.cases)}", "12.0 %", "10.0 %", "30.0 %"]
+    outside = [row for row in each.rows if row.cells[-1].text == "outside"]
+    assert len(outside) == len(tables.cases)
+    assert {row.cells[-1].note for row in outside} == {"interference"}
+    assert {row.cells[2].text for row in outside} == {"–"}
+    assert any("changed since the map was made" in getattr(item, "text", "") for item in section.items)
 
 
 def test_stale_reference_is_not_loaded(tables: Tables, inputs: Any, made_up: ModuleType) -> None:

@@ -7,6 +7,7 @@ there.
 from .catalogue import TABLES
 from .delta import Delta, Outcome, TrendRow
 from .errors import Agreement, Assessment, Ensemble, MetricRow, Sensitivity, ToleranceRow
+from .expected import ExpectedRow
 from .package import write_package
 from .row import Column, Row, column
 from .runs import AssumedRow, CaseRow, PeakRow
@@ -27,6 +28,7 @@ __all__ = [
     "Delta",
     "Difference",
     "Ensemble",
+    "ExpectedRow",
     "MetricRow",
     "Outcome",
     "PeakRow",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .errors import Ensemble, MetricRow, Sensitivity, ToleranceRow
+from .expected import ExpectedRow
 from .row import Row
 from .runs import AssumedRow, CaseRow, PeakRow
 from .slopes import Coefficient, Difference, Residual
@@ -17,6 +18,7 @@ TABLES: dict[str, type[Row]] = {
         ToleranceRow,
         PeakRow,
         MetricRow,
+        ExpectedRow,
         Coefficient,
         Ensemble,
         Sensitivity,
