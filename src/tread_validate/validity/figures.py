@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ..files import atomic_path
-from ..hierarchy.figures import STYLES
+from ..palette import GREEN, PURPLE, VERMILION
 from .table import Point
 
 SHOWN: tuple[tuple[str, str, tuple[float, ...]], ...] = (
@@ -18,7 +18,8 @@ SHOWN: tuple[tuple[str, str, tuple[float, ...]], ...] = (
     ("creep", "creep over the sticking limit", ()), ("poisson", "Poisson's ratio", ()),
 )  # fmt: skip
 """Groups, their labels, and the ticks of those on a logarithmic axis."""
-MODELS = ("shape_factor", "condensed_coarse", "condensed")
+STYLES = {"shape_factor": (VERMILION, "^"), "condensed_coarse": (PURPLE, "s"), "condensed": (GREEN, "D")}
+"""Colour and marker of the models that are drawn."""
 
 
 def error_figure(points: Sequence[Point], path: Path) -> None:
@@ -27,8 +28,7 @@ def error_figure(points: Sequence[Point], path: Path) -> None:
         figure = Figure(figsize=(9.0, 5.6), layout="constrained")
         FigureCanvasAgg(figure)
         for axes, (name, title, ticks) in zip(figure.subplots(2, 3, sharey=True).flat, SHOWN, strict=True):
-            for model in MODELS:
-                color, marker = STYLES[model]
+            for model, (color, marker) in STYLES.items():
                 x = [getattr(point.groups, name) for point in points]
                 y = [100.0 * max(abs(point.errors[model][quantity]), 1e-4) for point in points]
                 axes.plot(x, y, marker, color=color, ms=3.5, alpha=0.75, mew=0.0, label=model)
@@ -49,8 +49,7 @@ def held_out_figure(rows: Sequence[Mapping[str, object]], path: Path) -> None:
     figure = Figure(figsize=(8.6, 3.2), layout="constrained")
     FigureCanvasAgg(figure)
     for axes, quantity in zip(figure.subplots(1, 3), ("normal", "impulse", "tangential"), strict=True):
-        for model in MODELS:
-            color, marker = STYLES[model]
+        for model, (color, marker) in STYLES.items():
             chosen = [row for row in rows if row["model"] == model and row["quantity"] == quantity]
             x = [100.0 * float(str(row["expected"])) for row in chosen]
             y = [100.0 * max(float(str(row["actual"])), 1e-4) for row in chosen]
