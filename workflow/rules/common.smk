@@ -14,6 +14,7 @@ from tread_validate.reference import ENGINE_PARTS
 from tread_validate.source_code import code_digest
 from tread_validate.spring.variants import code_digest as variant_code
 from tread_validate.study import load_study
+from tread_validate.study.library import library_file, library_names
 from tread_validate.study.typical import path_and_block, typical_cases
 from tread_validate.workspace import bind
 
@@ -41,6 +42,7 @@ DATA_FILES = sorted(
     {str(path) for case in STUDY_CASES for path in case.input_files()}
     | {str(path) for path in study.library_files()}
 )
+LIBRARY_FILES = [str(library_file(name, study.root)) for name in library_names(study.root)]
 ENGINE = study.model.engine
 RUNS = {
     "embedded": "fe",

@@ -4,6 +4,7 @@ rule hierarchy_tables:
     input:
         study=STUDY,
         data=DATA_FILES,
+        compounds=LIBRARY_FILES,
         decks=rules.decks.output.inp,
         models=expand(rules.model.output.summary, model=MODELS),
         references=REFERENCE_FILES,

@@ -27,7 +27,7 @@ def command(
     ] = 256,
     part: Annotated[
         list[str] | None,
-        typer.Option("--part", help="pareto, effects, published, compatibility or sobol; may be given again; else all"),
+        typer.Option("--part", help="pareto, effects, published, compounds, compatibility, sobol; else all"),
     ] = None,
 ) -> None:
     """Compare every level of the model hierarchy with the FE runs, and say what each effect is worth.

@@ -13,14 +13,14 @@ from ..compare.tables import write_table
 from ..errors import InputError
 from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt
-from ..study.typical import path_kind, typical_cases
-from . import compatibility, effects, figures, pareto, published, sensitivity
+from ..study.typical import path_and_block, path_kind, typical_cases
+from . import compatibility, compounds, effects, figures, pareto, published, sensitivity
 from .own_models import own_rows
 
 Table = list[dict[str, Any]]
 Say = Callable[[str], None]
 
-PARTS = ("pareto", "effects", "published", "compatibility", "sobol")
+PARTS = ("pareto", "effects", "published", "compounds", "compatibility", "sobol")
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,12 @@ def build(
         levels = ("paper", "shape_factor", "condensed_coarse")
         put("combinations", published.COMBINATION_COLUMNS,
             [row for case in belts for row in published.combination_rows(case, levels)])  # fmt: skip
+    if "compounds" in parts:
+        say("other compounds")
+        by_compound, dependence = compounds.compound_tables(spread(cases), study.root, judged)
+        put("compounds", compounds.COLUMNS, by_compound)
+        put("compound_dependence", compounds.DEPENDENCE_COLUMNS, dependence)
+        figures.compounds_figure(by_compound, drawn / "compounds")
     if "compatibility" in parts:
         say("rate and temperature")
         put("compatibility", compatibility.COLUMNS, compatibility.compatibility_rows(cases))
@@ -90,6 +96,25 @@ def build(
         put("sobol", sensitivity.COLUMNS, [row for case in chosen for row in sensitivity.sobol_rows(case, samples)])
         figures.sobol_figure(tables["sobol"], drawn / "sobol")
     return tables
+
+
+def spread(cases: Sequence[Case]) -> list[Case]:
+    """Return the slowest, the typical and the fastest case of every kind of path and block, at one interference."""
+    found: dict[str, Case] = {}
+    for typical in typical_cases(cases, path_and_block):
+        like = [
+            case
+            for case in cases
+            if path_and_block(case) == path_and_block(typical)
+            and (case.interference, case.free_rolling) == (typical.interference, typical.free_rolling)
+        ]
+        for one in (min(like, key=_rate), typical, max(like, key=_rate)):
+            found.setdefault(one.case_id, one)
+    return list(found.values())
+
+
+def _rate(case: Case) -> tuple[float, float]:
+    return case.speed, -case.temperature
 
 
 def representative(cases: Sequence[Case]) -> list[Case]:

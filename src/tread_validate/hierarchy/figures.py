@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -114,6 +115,39 @@ def compatibility_figure(rows: Rows, path: Path) -> None:
         axes.set_title("Rate and temperature coefficients of linear compounds", loc="left")
         axes.legend()
         note(figure, "WLF constants of the paper; rig geometry with an assumed big wheel", ROOM)
+        _save(figure, path)
+
+
+def compounds_figure(rows: Rows, path: Path) -> None:
+    """Draw mean and range of three errors of the paper's springs for every compound, the least lossy first."""
+    if not rows:
+        return
+    panels = (
+        ("peak_normal_force", "scalar", "error of the peak normal force, %"),
+        ("tangential_to_normal_ratio", "scalar", "error of the peak |T|/N, %"),
+        ("tangential_force", "iso18571_r", "ISO/TS 18571 score of T, less 1, %"),
+    )
+    order = {row["compound"]: row["loss_factor"] for row in reversed(rows)}
+    names = sorted(order, key=lambda name: order[name])
+    with styled():
+        figure = canvas((9.6, 3.9))
+        for index, (quantity, metric, label) in enumerate(panels):
+            axes: Axes = figure.add_subplot(1, 3, index + 1)
+            for group, color, marker, side in (("rig", BLUE, "o", -0.12), ("belt", VERMILION, "D", 0.12)):
+                known = [row for row in rows if row["group"] == group and row["mean_error"] is not None]
+                own = [row for row in known if (row["quantity"], row["metric"]) == (quantity, metric)]
+                mean, least, most = ([100.0 * row[key] for row in own] for key in
+                                     ("mean_error", "least_error", "largest_error"))  # fmt: skip
+                bars = [np.subtract(mean, least), np.subtract(most, mean)]
+                axes.errorbar([names.index(row["compound"]) + side for row in own], mean, yerr=bars, fmt=marker,
+                              color=color, ms=6, lw=0.9, capsize=2, label=group)  # fmt: skip
+            axes.axhline(0.0, color=GREY, lw=0.7)
+            ticks = [f"{name}\ntan d {order[name]:.2g}".replace("_", " ") for name in names]
+            axes.set_xticks(range(len(names)), ticks, rotation=60, ha="right", fontsize=7)
+            axes.set_title(label, loc="left", fontsize=8)
+            if index == 0:
+                axes.legend(fontsize=7)
+        _mark(figure, rows)
         _save(figure, path)
 
 

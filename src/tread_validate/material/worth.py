@@ -127,13 +127,14 @@ def _band(case: Case) -> tuple[float, float]:
     From one over the time in contact of a point at half the block's length to one over the time in which it takes up
     90 % of its largest compression: what relaxes faster has relaxed while it is loaded.
     """
-    low, high = _rates(case)
+    low, high = rates_of_loading(case)
     compound = case.compound
     shift = float(relative_shift(case.temperature, compound.data_temperature_degC, compound.time_shift))
     return low * shift, high * shift
 
 
-def _rates(case: Case) -> tuple[float, float]:
+def rates_of_loading(case: Case) -> tuple[float, float]:
+    """Return the frequencies that a run needs at its own temperature, rad/s: over its contact, and while it loads."""
     built = path_of(case)
     t = np.linspace(0.0, built.contact_duration, 2001)
     depth = built.indentation(0.5 * built.columns.extent, t)

@@ -24,6 +24,12 @@ from .tables import number, read_table, records
 FIGURES = (
     ("pareto", "Cost and error of each model level", "Error of the peak normal force against the time of one pass."),
     ("sobol", "Which inputs the peak forces depend on", "First-order and total Sobol indices over the inputs' ranges."),
+    (
+        "compounds",
+        "Other compounds, the same errors?",
+        "Errors of the paper's springs against the condensed model, mean "
+        "and range over runs, for the study's compound and published rubbers.",
+    ),
     ("compatibility", "Speed and temperature together", "Which spectra of the compound could give both coefficients."),
 )
 TABLES = (
@@ -31,6 +37,8 @@ TABLES = (
     ("published", "Published figures of the belt run, level by level"),
     ("effects", "What each physical effect is worth"),
     ("combinations", "Which edge radius, patch length and modulus would meet all published figures"),
+    ("compound_dependence", "How much of what is said of the paper's springs depends on the compound"),
+    ("compounds", "Errors of the paper's springs by compound, against the condensed model"),
     ("compatibility", "Which compounds could give both published coefficients"),
     ("sobol", "Sobol indices"),
     ("stiffness", "Stiffness of the block bonded to its mount, solved and in closed form"),
