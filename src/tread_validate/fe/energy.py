@@ -99,9 +99,12 @@ def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def largest_strain(elements):  # type: ignore[no-untyped-def]
-    """Return the largest principal logarithmic strain by size, over all elements, from the right stretches."""
-    most = 0.0
+def largest_strain(elements, most):  # type: ignore[no-untyped-def]
+    """Return the largest principal logarithmic strain by size, over all elements, and `most` if that is larger.
+
+    An element whose stretch is so near to 1 that none of its strains can be larger is passed over.
+    """
+    near = 1.0 - math.exp(-most)  # |log s| <= most where |s - 1| <= near
     for b in range(elements.kind.size):
         for i in range(LANES):
             if elements.geo[b, GEO_VOLUME, i] == 0.0:
@@ -116,6 +119,9 @@ def largest_strain(elements):  # type: ignore[no-untyped-def]
                 elements.state[b, STATE_U + 4, i],
                 elements.state[b, STATE_U + 5, i],
             )
+            away = (u0 - 1.0) ** 2 + (u1 - 1.0) ** 2 + (u2 - 1.0) ** 2 + 2.0 * (u3 * u3 + u4 * u4 + u5 * u5)
+            if away < near * near:
+                continue
             mean = (u0 + u1 + u2) / 3.0
             d0, d1, d2 = u0 - mean, u1 - mean, u2 - mean
             size = math.sqrt((d0 * d0 + d1 * d1 + d2 * d2 + 2.0 * (u3 * u3 + u4 * u4 + u5 * u5)) / 6.0)
@@ -129,6 +135,7 @@ def largest_strain(elements):  # type: ignore[no-untyped-def]
                 high = mean + 2.0 * size * math.cos(angle)
                 low = mean + 2.0 * size * math.cos(angle + 2.0 * math.pi / 3.0)
             most = max(most, math.log(high), -math.log(low))
+            near = 1.0 - math.exp(-most)
     return most
 
 

@@ -15,7 +15,7 @@ from .blocks import Blocks, pack, set_bulk_viscosity, set_masses
 from .constraints import gather_amplitudes, gather_bodies, gather_loads, gather_prescribed
 from .element_full_kernel import FULL_WORK_ROWS
 from .element_kernel import LANES, WORK_ROWS
-from .energy import kinetic_energy
+from .energy import kinetic_energy, largest_strain
 from .explicit_kernel import BAD_FRICTION, CHUNKS, INVERTED, advance
 from .kernel_data import (
     CLOCK_ROWS,
@@ -164,6 +164,7 @@ class Simulation:
         begun = clock_module.monotonic()
         for number, step in enumerate(self.model.steps):
             self.samples = Samples()
+            kept = number == len(self.model.steps) - 1
             self._begin(number, step)
             if progress is not None and number == 0:
                 progress(0.0, math.inf)
@@ -186,8 +187,11 @@ class Simulation:
                 while mark * interval <= done - dt + 1e-9 * dt:
                     mark += 1
                 last = done >= step.period * (1.0 - 1e-12)
-                take_sample(self, dt, energies=len(self.samples.time) % every == 0 or last)
-                if self.observer is not None and number == len(self.model.steps) - 1:
+                if kept or last:
+                    take_sample(self, dt, energies=len(self.samples.time) % every == 0 or last)
+                else:
+                    self.strain = largest_strain(self.elements, self.strain)
+                if self.observer is not None and kept:
                     self.observer(done)
                 if progress is not None:
                     share = self.clock[TOTAL_TIME] / self.duration

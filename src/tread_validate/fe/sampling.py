@@ -107,7 +107,7 @@ def _reaction(simulation: Simulation) -> Floats:
 def _sample_energy(simulation: Simulation) -> None:
     stored, stress_work, hourglass, bulk = element_energies(simulation.elements, simulation.weights, simulation.nodes.u)
     now = simulation.clock[TOTAL_TIME]
-    simulation.strain = max(simulation.strain, largest_strain(simulation.elements))
+    simulation.strain = largest_strain(simulation.elements, simulation.strain)
     kinetic = kinetic_energy(simulation.nodes.v, simulation.blocks.mass)
     if not math.isfinite(kinetic + stored):
         raise EngineError(f"the energy is no longer finite at {now:.6g} s")

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh_tridiagonal
 
 from ..kernels import kernel
 from .blocks import Blocks
@@ -208,7 +209,8 @@ class StableIncrement:
         basis = np.zeros((steps, start.size))
         diagonal, beside = np.zeros(steps), np.zeros(steps)
         count = krylov(self.stiffness, self.root.ravel(), start.ravel(), basis, diagonal, beside)
-        matrix = np.diag(diagonal[:count]) + np.diag(beside[: count - 1], 1) + np.diag(beside[: count - 1], -1)
-        values, vectors = np.linalg.eigh(matrix)
-        mode = (vectors[:, -1, None] * basis[:count]).sum(axis=0)
-        return float(values[-1]), mode.reshape(start.shape)
+        values, vectors = eigh_tridiagonal(
+            diagonal[:count], beside[: count - 1], select="i", select_range=(count - 1, count - 1)
+        )
+        mode = (vectors[:, 0, None] * basis[:count]).sum(axis=0)
+        return float(values[0]), mode.reshape(start.shape)

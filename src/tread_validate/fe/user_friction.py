@@ -24,12 +24,14 @@ from numpy.typing import NDArray
 from ..errors import EngineError, InputError, one_line
 from ..files import read_text
 from ..kernels import kernel
+from .routine_cache import fetch, keep, kept_library
 
 ARGUMENTS = 42
 NAME_LENGTH = 80
 # Two lines that stand for ABAQUS's own include file in double precision; they lie beside the compile only.
 PARAMETERS = "      implicit real*8 (a-h,o-z)\n      parameter (j_sys_Dimension = 2)\n"
 COMPILE_SECONDS = 120
+OPTIONS = ("-O2", "-shared", "-fPIC", "-x", "f77", "-ffixed-form")
 
 
 @dataclass
@@ -59,7 +61,7 @@ def compile_vfric(source: Path | str) -> UserRoutine:
         The source holds no VFRIC.
     """
     path = Path(source)
-    read_text(path)
+    text = read_text(path)
     compiler = shutil.which("gfortran")
     if compiler is None:
         raise EngineError(f"{path}: gfortran not found; it compiles the user friction routine (Debian: gfortran)")
@@ -67,14 +69,16 @@ def compile_vfric(source: Path | str) -> UserRoutine:
         folder = Path(name)
         (folder / "vaba_param.inc").write_text(PARAMETERS, encoding="ascii")
         library = folder / "vfric.so"
-        command = [compiler, "-O2", "-shared", "-fPIC", "-x", "f77", "-ffixed-form", f"-I{folder}"]
-        command += ["-o", str(library), str(path.resolve())]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=COMPILE_SECONDS, cwd=folder)
-        except subprocess.TimeoutExpired:
-            raise EngineError(f"{path}: gfortran took more than {COMPILE_SECONDS} s") from None
-        if done.returncode != 0:
-            raise _compile_error(path, done.stderr)
+        kept = kept_library(text, compiler, [*OPTIONS, PARAMETERS])
+        if not fetch(kept, library):  # a copy, as a library loaded twice from one place would share its variables
+            command = [compiler, *OPTIONS, f"-I{folder}", "-o", str(library), str(path.resolve())]
+            try:
+                done = subprocess.run(command, capture_output=True, text=True, timeout=COMPILE_SECONDS, cwd=folder)
+            except subprocess.TimeoutExpired:
+                raise EngineError(f"{path}: gfortran took more than {COMPILE_SECONDS} s") from None
+            if done.returncode != 0:
+                raise _compile_error(path, done.stderr)
+            keep(kept, library)
         loaded = ctypes.CDLL(str(library))
     try:
         entry = loaded.vfric_

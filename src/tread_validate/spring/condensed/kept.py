@@ -19,6 +19,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from ...cache_folder import cache_folder as folder
 from ...errors import InputError
 from ...files import write_bytes
 
@@ -33,20 +34,6 @@ SOURCES = (
 """What decides the arrays, beside NumPy and SciPy; a test holds the list to the import graph."""
 
 Arrays = Mapping[str, NDArray[Any]]
-
-
-def folder() -> Path | None:
-    """Return where files are kept, or None where they are not."""
-    named = os.environ.get("TREAD_VALIDATE_CACHE", "")
-    if named.lower() == "off":
-        return None
-    if named:
-        return Path(named)
-    base = os.environ.get("XDG_CACHE_HOME", "")
-    try:
-        return (Path(base) if base else Path.home() / ".cache") / "tread-validate"
-    except RuntimeError:  # no home
-        return None
 
 
 @cache
