@@ -25,14 +25,47 @@ class Solid(NamedTuple):
     long_term : float, Pa
     moduli, relaxation_times : (k,) arrays, Pa and s
         At the temperature of the run.
-    stretch : (2,) array, 1/m
-        Relative growth of the elastic resistance per metre of compression: normal, tangential (0, 0 is small strain).
     """
 
     long_term: float
     moduli: Array
     relaxation_times: Array
-    stretch: Array
+
+
+class SecondOrder(NamedTuple):
+    """What finite strain and rotation do to the unloaded face, see `second_order`; without elements: small strain.
+
+    Attributes
+    ----------
+    free : (n, 3) array, m
+        Stress-free positions of the face's nodes.
+    gather : (c, n) array
+        Displacements of the face's nodes -> those of the c nodes of a coarser face.
+    gradient : (9 e, 3 c) array, 1/m
+        Displacement gradients of e elements (component by component) that go with them.
+    spread : (3 c, 9 e) array, m per (stress over E)
+        Displacements of the unloaded coarser face under stresses in the elements.
+    near, share : (n, 4) arrays
+        Coarser nodes around a node of the face, and their weights.
+    lame, shear : float
+        Lame's constants for E = 1.
+    """
+
+    free: Array
+    gather: Singles
+    gradient: Singles
+    spread: Singles
+    near: Integers
+    share: Array
+    lame: float
+    shear: float
+
+
+_NONE = np.zeros((0, 0), dtype=np.float32)
+SMALL_STRAIN = SecondOrder(
+    np.zeros((0, 3)), _NONE, _NONE, _NONE, np.zeros((0, 4), dtype=np.int64), np.zeros((0, 4)), 0.0, 0.0
+)
+"""Nothing of second order."""
 
 
 class RoadMotion(NamedTuple):
@@ -60,13 +93,16 @@ class Pose(NamedTuple):
     angle : float, rad
         Slope of the mount there.
     unloaded : (n, 3) array, m
-        Positions of the face's nodes in the block's frame if no force acted on the face.
+        Positions of the face's nodes in the block's frame if no force acted on the face (small strain).
+    bend : (9 e,) array
+        Displacement gradients that the mount's bending makes in the elements of `SecondOrder`.
     """
 
     x: float
     y: float
     angle: float
     unloaded: Array
+    bend: Singles = _NONE[0:0].ravel()
 
 
 class FaceNodes(NamedTuple):
@@ -93,7 +129,7 @@ class FaceState(NamedTuple):
     Attributes
     ----------
     w : (n, 3) array, m
-        Elastic displacement in the block's frame (stretched by the strain measure).
+        Elastic displacement in the block's frame.
     rate : (n, 3) array, m/s
     memory : (k, n, 3) array, m
         Fading displacement of each Prony term.
@@ -105,6 +141,12 @@ class FaceState(NamedTuple):
         Force of the road on the nodes, block's frame.
     scale : (1,) array, N
         Largest nodal force of the step before.
+    shift, flow : (n, 3) arrays, m and m/s
+        Displacement of the unloaded face of second order, when it was last found, and its rate.
+    seen : (n, 3) array, m
+        Displacement of the face it was found for.
+    pace : (2,) array, s
+        Time between the last two times that it was found, and time since.
     """
 
     w: Array
@@ -114,6 +156,10 @@ class FaceState(NamedTuple):
     code: Integers
     force: Array
     scale: Array
+    shift: Array
+    flow: Array
+    seen: Array
+    pace: Array
 
 
 class Scratch(NamedTuple):
@@ -125,6 +171,10 @@ class Scratch(NamedTuple):
     normal: Array
     before: Integers
     decay: Array
+    unloaded: Array
+    moved: Singles
+    coarse: Singles
+    gradient: Singles
 
 
 class Solver(NamedTuple):
@@ -142,19 +192,23 @@ class Scene(NamedTuple):
     road: RoadMotion
     law: KernelLaw
     solver: Solver
+    second: SecondOrder = SMALL_STRAIN
 
 
 def fresh_state(nodes: int, terms: int) -> FaceState:
     """Return the state of a block that never touched; positions are filled in by `start`."""
     return FaceState(
         np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((terms, nodes, 3)), np.zeros((nodes, 3)),
-        np.zeros(nodes, dtype=np.int64), np.zeros((nodes, 3)), np.full(1, 1e-3),
+        np.zeros(nodes, dtype=np.int64), np.zeros((nodes, 3)), np.full(1, 1e-3), np.zeros((nodes, 3)),
+        np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros(2),
     )  # fmt: skip
 
 
-def scratch(nodes: int, terms: int) -> Scratch:
+def scratch(nodes: int, terms: int, second: SecondOrder = SMALL_STRAIN) -> Scratch:
     """Return work space for `nodes` nodes and `terms` Prony terms."""
+    elements, coarse = second.gradient.shape
     return Scratch(
         np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 2)),
-        np.zeros(nodes, dtype=np.int64), np.zeros(terms),
+        np.zeros(nodes, dtype=np.int64), np.zeros(terms), np.zeros((nodes, 3)), np.zeros((3, nodes), dtype=np.float32),
+        np.zeros(coarse, dtype=np.float32), np.zeros(elements, dtype=np.float32),
     )  # fmt: skip

@@ -9,7 +9,8 @@ import numpy as np
 from ...kernels import kernel
 from .contact import Tempo
 from .inputs import Array, FaceState, Integers, Pose, Scene, Scratch, Singles
-from .step import approach, hold, settle, widest
+from .second_order import follow_up, rest, shifted
+from .step import approach, hold, put, settle, widest
 
 ROWS = 2
 """Rows of nodes in a cell; windows begin and end between cells."""
@@ -24,12 +25,15 @@ class Course(NamedTuple):
     origin : (m, 2) array, m
     unloaded : (m, n, 3) or (1, n, 3) array, m
         One entry stands for a rigid mount.
+    bend : (m, 9 e) or (1, 9 e) array
+        As in `Pose`.
     """
 
     time: Array
     angle: Array
     origin: Array
     unloaded: Array
+    bend: Singles = np.zeros((1, 0), dtype=np.float32)
 
 
 class Record(NamedTuple):
@@ -62,7 +66,14 @@ class Windows(NamedTuple):
 def pose_at(course: Course, k: int) -> Pose:
     """Return the pose at the k-th time."""
     unloaded = course.unloaded[k if course.unloaded.shape[0] > 1 else 0]
-    return Pose(course.origin[k, 0], course.origin[k, 1], course.angle[k], unloaded)
+    bend = course.bend[k if course.bend.shape[0] > 1 else 0]
+    return Pose(course.origin[k, 0], course.origin[k, 1], course.angle[k], unloaded, bend)
+
+
+@kernel()
+def start(pose: Pose, scene: Scene, state: FaceState, work: Scratch) -> None:
+    """Put the unloaded face where the mount holds it."""
+    put(rest(pose, scene.second, state, work), state)
 
 
 @kernel()
@@ -92,6 +103,7 @@ def take_step(
 
     Sweeps of -1 say that the window's operator is not there yet; the state is then as it was.
     """
+    pose = shifted(pose, scene.second, state, dt, work)
     stiffening, first, last = approach(pose, scene, state, dt, work)
     tempo = Tempo(stiffening, dt)
     a, b, sweeps = 0, 0, 0
@@ -112,6 +124,7 @@ def take_step(
         if first == begin and last == end:
             break
     settle(pose, scene.solid, state, tempo, work)
+    follow_up(pose, scene.second, state, dt, work)
     return a, b, sweeps
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from ...geometry import Path
 from ...study import Block
 from .body import Body, FreeShape
+from .inputs import Singles
 from .march import Course
 
 Array = NDArray[np.float64]
@@ -25,8 +26,12 @@ def free_shape(path: Path, block: Block) -> FreeShape:
     return FreeShape() if flat else FreeShape(path.block_curvature())
 
 
-def motion(path: Path, shape: FreeShape, body: Body, follow: Array, height: float, time: Array) -> Course:
+def motion(
+    path: Path, shape: FreeShape, body: Body, follow: Array, bend: Singles, height: float, time: Array
+) -> Course:
     """Return frame and unloaded face of `body` at `time` (m,) in s; `follow` as in `FaceStiffness`.
+
+    `bend` (9 e, 2 k) are the gradients in the elements of `SecondOrder` for unit displacement of each knot.
 
     The block bends as its mount does; a rigid mount leaves the unloaded face as it is.
     """
@@ -34,11 +39,12 @@ def motion(path: Path, shape: FreeShape, body: Body, follow: Array, height: floa
     at = path.at(middle, time)
     origin = np.column_stack([at.x, at.y])
     if path.line.ring_radius is not None:
-        return Course(time, np.asarray(at.theta), origin, body.face[None])
+        return Course(time, np.asarray(at.theta), origin, body.face[None], np.zeros((1, 0), dtype=np.float32))
     cosine, sine = np.cos(at.theta)[:, None], np.sin(at.theta)[:, None]
     knots = path.at(middle - body.knots, time[:, None])
     dx, dy = knots.x - at.x[:, None], knots.y - at.y[:, None]
     free = shape.mount(body.knots, height)
     moved = np.hstack([cosine * dx + sine * dy - free[:, 0], cosine * dy - sine * dx - free[:, 1]])
     bent = (moved @ follow.T).reshape(time.size, -1, 3)
-    return Course(time, np.asarray(at.theta), origin, body.face + bent)
+    gradients = moved.astype(np.float32) @ bend.T
+    return Course(time, np.asarray(at.theta), origin, body.face + bent, gradients)

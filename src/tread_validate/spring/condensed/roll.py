@@ -15,11 +15,10 @@ from ...study import Case
 from ..inputs import KernelLaw
 from ..rubber import law_of, series_of
 from .body import Body, BodySettings, fitted
-from .inputs import RoadMotion, Scene, Solid, Solver, fresh_state, scratch
-from .march import Course, Record, march, pose_at
+from .inputs import SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
+from .march import Course, Record, march, pose_at, start
 from .motion import free_shape, motion
 from .operators import FaceOperators
-from .step import start
 from .store import ReadyFace, ready
 
 Array = NDArray[np.float64]
@@ -44,7 +43,7 @@ class CondensedSettings:
     longest_step : float
         The same while the whole face lies still.
     finite_strain : bool
-        Stiffen by the a-priori factors of logarithmic strain.
+        Take strain and rotation to second order.
     mesh_correction : bool
         Scale the face's stiffness to the static stiffness of the limit of fine meshes.
     tolerance : float
@@ -126,7 +125,8 @@ def roll(
     face, scene, division = scene_of(case, path, settings, series, friction)
     scene = scene._replace(road=RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio)))
     time = step_times(path, division.face_size, settings)
-    moves = motion(path, face.shape, face.body, face.follow, case.height, time)
+    bend = face.bend if settings.finite_strain else face.bend[:0]
+    moves = motion(path, face.shape, face.body, face.follow, bend, case.height, time)
     known = face.operators.count
     record = run_course(moves, scene, face.operators)
     if face.operators.count > known:
@@ -146,11 +146,11 @@ def scene_of(
     shape = free_shape(path, case.block)
     face = ready(case.block, shape, division, case.compound.poissons_ratio, settings.mesh_correction)
     series, friction = series or series_of(case), friction or law_of(case)
-    stretch = face.stretch if settings.finite_strain else np.zeros(2)
-    solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times, stretch)
+    solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times)
     law = KernelLaw(friction.static_coefficient, *friction.kernel_arguments)
     solver = Solver(settings.tolerance, settings.most_sweeps)
-    return face, Scene(face.operators.nodes, solid, RoadMotion(path.road.radius, 0.0), law, solver), division
+    second = face.second if settings.finite_strain else SMALL_STRAIN
+    return face, Scene(face.operators.nodes, solid, RoadMotion(path.road.radius, 0.0), law, solver, second), division
 
 
 def run_course(moves: Course, scene: Scene, parts: FaceOperators) -> Record:
@@ -160,8 +160,8 @@ def run_course(moves: Course, scene: Scene, parts: FaceOperators) -> Record:
         np.zeros((steps, n, 3)), np.zeros((steps, n, 3)), np.zeros((steps, n), dtype=np.int64),
         np.zeros(steps, dtype=np.int64),
     )  # fmt: skip
-    state, work = fresh_state(n, terms), scratch(n, terms)
-    start(pose_at(moves, 0), scene.solid, state)
+    state, work = fresh_state(n, terms), scratch(n, terms, scene.second)
+    start(pose_at(moves, 0), scene, state, work)
     at = 1
     while True:
         at, a, b = march(at, moves, scene, parts.windows, state, work, record)

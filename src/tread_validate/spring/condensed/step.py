@@ -19,12 +19,6 @@ SUNK = 1e-9
 
 
 @kernel()
-def start(pose: Pose, solid: Solid, state: FaceState) -> None:
-    """Put the unloaded face where the mount holds it."""
-    _positions(pose, state.w, solid.stretch, state.place)
-
-
-@kernel()
 def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratch) -> tuple[float, int, int]:
     """Write first guess, target and road normal of every node to `work`.
 
@@ -54,11 +48,9 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
         if before == FREE:
             # a free node moves with its mount and its neighbours (where its displacement is heading) until it
             # touches, part of the step, and with the road for the rest
-            dy = _actual(ahead[1], solid.stretch[0])
-            shear = 1.0 + solid.stretch[1] * max(dy, 0.0)
-            fx, fy = unloaded[0] + ahead[0] / shear, unloaded[1] + dy
+            fx, fy = unloaded[0] + ahead[0], unloaded[1] + ahead[1]
             ax, ay = pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy
-            az = unloaded[2] + ahead[2] / shear
+            az = unloaded[2] + ahead[2]
             new = _gap(ax, ay, road.radius)
             part = 1.0
             if new < 0.0:
@@ -75,16 +67,14 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
             turn = math.atan2(x, y + road.radius) + travel / road.radius
             nx, ny = math.sin(turn), math.cos(turn)
             tx, ty = road.radius * nx, road.radius * (ny - 1.0)
-        # into the block's frame, less the unloaded place, stretched: the displacement that the road imposes
+        # into the block's frame, less the unloaded place: the displacement that the road imposes
         gx, gy = tx - pose.x, ty - pose.y
         ux = cosine * gx + sine * gy - unloaded[0]
         uy = cosine * gy - sine * gx - unloaded[1]
         uz = z - unloaded[2]
-        pressed = max(uy, 0.0)
-        shear = 1.0 + solid.stretch[1] * pressed
-        target[i, 0] = relaxed[i, 0] + stiffening * (ux * shear - state.w[i, 0])
-        target[i, 1] = relaxed[i, 1] + stiffening * (uy * (1.0 + solid.stretch[0] * pressed) - state.w[i, 1])
-        target[i, 2] = relaxed[i, 2] + stiffening * (uz * shear - state.w[i, 2])
+        target[i, 0] = relaxed[i, 0] + stiffening * (ux - state.w[i, 0])
+        target[i, 1] = relaxed[i, 1] + stiffening * (uy - state.w[i, 1])
+        target[i, 2] = relaxed[i, 2] + stiffening * (uz - state.w[i, 2])
         work.normal[i, 0] = cosine * nx + sine * ny
         work.normal[i, 1] = cosine * ny - sine * nx
         if before == STICK:
@@ -128,7 +118,7 @@ def widest(
     pose: Pose, scene: Scene, state: FaceState, tempo: Tempo, begin: int, end: int, work: Scratch
 ) -> tuple[int, int]:
     """Return a window that also holds the nodes outside begin..end that the solution would sink into the road."""
-    solid, road = scene.solid, scene.road
+    road = scene.road
     cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
     n = state.w.shape[0]
     first, last = (begin, end) if end > begin else (n, 0)
@@ -137,9 +127,7 @@ def widest(
             continue
         wx = state.w[i, 0] + (work.q[i, 0] - work.relaxed[i, 0]) / tempo.stiffening
         wy = state.w[i, 1] + (work.q[i, 1] - work.relaxed[i, 1]) / tempo.stiffening
-        dy = _actual(wy, solid.stretch[0])
-        fx = pose.unloaded[i, 0] + wx / (1.0 + solid.stretch[1] * max(dy, 0.0))
-        fy = pose.unloaded[i, 1] + dy
+        fx, fy = pose.unloaded[i, 0] + wx, pose.unloaded[i, 1] + wy
         gap = _gap(pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy, road.radius)
         if gap < -SUNK:
             first, last = min(first, i), max(last, i + 1)
@@ -159,7 +147,7 @@ def settle(pose: Pose, solid: Solid, state: FaceState, tempo: Tempo, work: Scrat
     for j in range(terms):
         weight = solid.relaxation_times[j] * (1.0 - work.decay[j])
         _fade(state.memory[j], work.decay[j], weight, state.rate)
-    _positions(pose, state.w, solid.stretch, state.place)
+    put(pose, state)
     cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
     sum_x, sum_y, largest = 0.0, 0.0, 0.0
     for i in range(n):
@@ -221,25 +209,16 @@ def _follow(compliance: Singles, code: Integers, force: Array, begin: int, end: 
 
 
 @kernel()
-def _actual(w: float, factor: float) -> float:
-    """Solve d (1 + factor d) = w for the compression d; where the face is drawn out, d = w."""
-    if factor == 0.0 or w <= 0.0:
-        return w
-    return 2.0 * w / (1.0 + math.sqrt(1.0 + 4.0 * factor * w))
-
-
-@kernel()
-def _positions(pose: Pose, w: Array, stretch: Array, place: Array) -> None:
-    """Write the axle-frame positions of the face's nodes into `place`."""
+def put(pose: Pose, state: FaceState) -> None:
+    """Write the axle-frame positions of the face's nodes."""
+    w, place = state.w, state.place
     cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
     unloaded = pose.unloaded
     for i in range(w.shape[0]):
-        dy = _actual(w[i, 1], stretch[0])
-        shear = 1.0 + stretch[1] * max(dy, 0.0)
-        x, y = unloaded[i, 0] + w[i, 0] / shear, unloaded[i, 1] + dy
+        x, y = unloaded[i, 0] + w[i, 0], unloaded[i, 1] + w[i, 1]
         place[i, 0] = pose.x + cosine * x - sine * y
         place[i, 1] = pose.y + sine * x + cosine * y
-        place[i, 2] = unloaded[i, 2] + w[i, 2] / shear
+        place[i, 2] = unloaded[i, 2] + w[i, 2]
 
 
 @kernel()

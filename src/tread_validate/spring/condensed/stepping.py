@@ -11,9 +11,8 @@ from ...errors import InputError
 from ...geometry import path_of
 from ...study import Case
 from .inputs import FaceState, Pose, fresh_state, scratch
-from .march import take_step
+from .march import start, take_step
 from .roll import CondensedSettings, scene_of
-from .step import start
 
 Array = NDArray[np.float64]
 
@@ -25,16 +24,17 @@ class FaceBlock:
         path = path_of(case)
         self._face, self._scene, _ = scene_of(case, path, settings)
         self._height = case.height
+        self._bend = self._face.bend if settings.finite_strain else self._face.bend[:0]
         self._nodes, self._terms = self._face.body.area.size, self._scene.solid.moduli.size
         self._copies = 2.0 if self._face.body.half else 1.0
-        self._work = scratch(self._nodes, self._terms)
+        self._work = scratch(self._nodes, self._terms, self._scene.second)
         self._state: FaceState | None = None
         self.mount_points = self._face.body.knots
 
     def start(self, position: Array, angle: float, mount: Array | None) -> None:
         """Forget the past; the block is stress-free at this pose."""
         self._state = fresh_state(self._nodes, self._terms)
-        start(self._pose(position, angle, mount), self._scene.solid, self._state)
+        start(self._pose(position, angle, mount), self._scene, self._state, self._work)
 
     def step(
         self, dt: float, position: Array, angle: float, road_speed: float, mount: Array | None
@@ -63,10 +63,12 @@ class FaceBlock:
 
     def _pose(self, position: Array, angle: float, mount: Array | None) -> Pose:
         body, unloaded = self._face.body, self._face.body.face
+        bend = np.zeros(0, dtype=np.float32)
         if mount is not None:
             dx, dy = mount[:, 0] - position[0], mount[:, 1] - position[1]
             cosine, sine = np.cos(angle), np.sin(angle)
             free = self._face.shape.mount(body.knots, self._height)
             moved = np.concatenate([cosine * dx + sine * dy - free[:, 0], cosine * dy - sine * dx - free[:, 1]])
             unloaded = unloaded + (self._face.follow @ moved).reshape(-1, 3)
-        return Pose(float(position[0]), float(position[1]), float(angle), unloaded)
+            bend = self._bend @ moved.astype(np.float32)
+        return Pose(float(position[0]), float(position[1]), float(angle), unloaded, bend)

@@ -18,8 +18,9 @@ from ...units import MM
 from ..stiffness import StiffnessRatios, static_ratios
 from .body import Body, BodySettings, FreeShape, make_body
 from .condense import FaceStiffness, condense
-from .finite_strain import logarithmic_stiffening
+from .finite_strain import second_order_arrays, second_order_of
 from .kept import Arrays, keep, kept, load
+from .inputs import SecondOrder, Singles
 from .operators import FaceOperators, inverse
 
 Array = NDArray[np.float64]
@@ -30,8 +31,6 @@ ORDER = 1.39
 """Order of convergence of the stiffness in the element size. Corners between a bonded and a free face limit it: meshes
 of 4, 8 and 16 layers give 1.972, 1.891 and 1.860 for a 25 x 20 x 8 mm block with nu = 0.47, that is order 1.39 and a
 limit of 1.841 (theory for a sharp corner of that material: 1.22, which would make the limit 0.2 per cent lower)."""
-STIFFENING = (4.0, 6)
-"""A ratio of two stiffnesses needs no fine mesh: against 8 elements a height it is off by 1 per cent of itself."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +43,9 @@ class ReadyFace:
     body : Body
     follow : (3 n, 2 k) array
         What the unloaded face does with the mount, as in `FaceStiffness`.
-    stretch : (2,) array, 1/m
-        Growth of the stiffness per metre of compression by logarithmic strain: normal, tangential.
+    second : SecondOrder
+    bend : (9 e, 2 k) array
+        What the elements of `second` do with the mount.
     operators : FaceOperators
     key : str
         What the block is kept under.
@@ -54,7 +54,8 @@ class ReadyFace:
     shape: FreeShape
     body: Body
     follow: Array
-    stretch: Array
+    second: SecondOrder
+    bend: Singles
     operators: FaceOperators
     key: str
 
@@ -96,21 +97,19 @@ def ready(
 
     def make() -> Arrays:
         face = solved()
-        grown = logarithmic_stiffening(make_body(block, shape, _part(block, STIFFENING)), poissons_ratio)
         return {
             "follow": face.follow,
             "compliance": inverse(face.stiffness).astype(np.float32),
-            "stretch": np.array([grown.normal, grown.tangential]),
+            **second_order_arrays(block, shape, body, poissons_ratio),
         }
 
-    arrays = kept("face", key, make)
     body = make_body(block, shape, settings)
-
+    arrays = kept("face", key, make)
     operators = FaceOperators(body, stiffness, arrays["compliance"])
     found = load("windows", key)
     if found is not None:
         operators.learn(found["offset"], found["pool"])
-    return ReadyFace(shape, body, arrays["follow"], arrays["stretch"], operators, key)
+    return ReadyFace(shape, body, arrays["follow"], second_order_of(arrays, body, poissons_ratio), arrays["bend"], operators, key)
 
 
 @lru_cache(maxsize=32)

@@ -1,0 +1,172 @@
+"""What finite strain and rotation add to the condensed face: the unloaded face moves with the square of the strain.
+
+With H the displacement gradient of the linear solution, eps its symmetric and W its skew part, and the rate law of an
+explicit finite element code (Cauchy stress from logarithmic strain in a frame that turns with the rubber), the first
+Piola-Kirchhoff stress is P = C : eps + P2 + ..., with
+
+    P2 = C : (H^T H/2 - eps^2) + W s - s eps + tr(eps) s,    s = C : eps.
+
+Perturbation of the equilibrium to second order (R.S. Rivlin, C. Topakoglu, J. Rational Mech. Anal. 3 (1954) 581-589;
+Green and Adkins, Large Elastic Deformations, 2nd ed. 1970, ch. 5): the body under P2 alone, its mount held, would move
+its unloaded face by -v, and the block answers to loads on that moved face as the linear one. v is found on
+a coarser division of the block: it is a few per cent of the displacement, and needs to be known to a tenth of itself.
+
+v is that of the elastic block: all moduli relax alike, and P2 as the square of a strain relaxes as the stress does
+where strain and stress grow together.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...kernels import kernel
+from .inputs import FaceState, Pose, Scratch, SecondOrder, Singles
+
+LARGEST = 0.5
+"""Norm of H beyond which P2 grows no more: there a second order says nothing."""
+CHANGE = 0.2
+"""v is found at every other step, and whenever a displacement has changed by this part of the largest one."""
+FARTHEST = 2.0
+"""v is extrapolated over at most so many times the time between the last two."""
+
+
+@kernel()
+def shifted(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scratch) -> Pose:
+    """Return the pose with the unloaded face moved to where it will be after `dt`."""
+    if second.near.shape[0] == 0:
+        return pose
+    ahead = min(state.pace[1] + dt, FARTHEST * state.pace[0])
+    for i in range(state.shift.shape[0]):
+        for c in range(3):
+            work.unloaded[i, c] = pose.unloaded[i, c] + state.shift[i, c] + ahead * state.flow[i, c]
+    return Pose(pose.x, pose.y, pose.angle, work.unloaded, pose.bend)
+
+
+@kernel()
+def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scratch) -> None:
+    """Find the shift of the unloaded face that goes with the displacements after a step of `dt` to a moved `pose`."""
+    if second.near.shape[0] == 0:
+        return
+    state.pace[1] += dt
+    if not _due(pose, second, state, dt, work):
+        return
+    dt = state.pace[1]
+    _strain(pose, second, state, work)
+    _stress(second, work.gradient)
+    _times(second.spread, work.gradient, work.coarse)
+    for i in range(state.shift.shape[0]):
+        for c in range(3):
+            moved = 0.0
+            for k in range(4):
+                moved += second.share[i, k] * work.coarse[3 * second.near[i, k] + c]
+            state.flow[i, c] = (moved - state.shift[i, c]) / dt
+            state.shift[i, c] = moved
+    state.pace[0], state.pace[1] = dt, 0.0
+
+
+@kernel()
+def rest(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) -> Pose:
+    """Return the pose with the face of the block as the mount bends it, free of force."""
+    if second.near.shape[0] == 0:
+        return pose
+    for _ in range(3):
+        follow_up(shifted(pose, second, state, 0.0, work), second, state, 1.0, work)
+    state.flow[:], state.pace[:] = 0.0, 0.0
+    return shifted(pose, second, state, 0.0, work)
+
+
+@kernel()
+def _due(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scratch) -> bool:
+    """Write the face's displacements to `work.moved`; tell whether it is time to find v anew."""
+    largest, change = 0.0, 0.0
+    for i in range(state.w.shape[0]):
+        for c in range(3):
+            moved = pose.unloaded[i, c] + state.w[i, c] - second.free[i, c]
+            work.moved[c, i] = moved
+            largest, change = max(largest, abs(moved)), max(change, abs(moved - state.seen[i, c]))
+    just_found = state.pace[1] == dt
+    if just_found and change <= CHANGE * largest:
+        return False
+    for i in range(state.w.shape[0]):
+        for c in range(3):
+            state.seen[i, c] = work.moved[c, i]
+    return True
+
+
+@kernel()
+def _strain(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) -> None:
+    """Write the displacement gradients of the elements to `work.gradient`."""
+    for k in range(second.gather.shape[0]):
+        for c in range(3):
+            work.coarse[3 * k + c] = _dot(second.gather[k], work.moved[c])
+    _times(second.gradient, work.coarse, work.gradient)
+    if pose.bend.size > 0:
+        work.gradient[:] += pose.bend
+
+
+@kernel(reorder=True)
+def _dot(a: Singles, b: Singles) -> float:
+    total = np.float32(0.0)
+    for j in range(a.size):
+        total += a[j] * b[j]
+    return total
+
+
+@kernel(reorder=True)
+def _times(matrix: Singles, vector: Singles, out: Singles) -> None:
+    for i in range(out.size):
+        row = matrix[i]
+        total = np.float32(0.0)
+        for j in range(vector.size):
+            total += row[j] * vector[j]
+        out[i] = total
+
+
+@kernel(reorder=True)
+def _stress(second: SecondOrder, gradient: Singles) -> None:
+    """Replace the gradients H, component by component, with P2 over E."""
+    e = gradient.size // 9
+    lame, twice = np.float32(second.lame), np.float32(2.0 * second.shear)
+    half = np.float32(0.5)
+    largest = np.float32(LARGEST * LARGEST)
+    for k in range(e):
+        h00, h01, h02 = gradient[k], gradient[e + k], gradient[2 * e + k]
+        h10, h11, h12 = gradient[3 * e + k], gradient[4 * e + k], gradient[5 * e + k]
+        h20, h21, h22 = gradient[6 * e + k], gradient[7 * e + k], gradient[8 * e + k]
+        a, b, c = half * (h01 + h10), half * (h02 + h20), half * (h12 + h21)
+        u, v, w = half * (h01 - h10), half * (h02 - h20), half * (h12 - h21)
+        trace = h00 + h11 + h22
+        norm = h00 * h00 + h01 * h01 + h02 * h02 + h10 * h10 + h11 * h11 + h12 * h12
+        norm += h20 * h20 + h21 * h21 + h22 * h22
+        scale = largest / max(norm, largest)
+        # eps^2
+        s00, s11, s22 = h00 * h00 + a * a + b * b, a * a + h11 * h11 + c * c, b * b + c * c + h22 * h22
+        s01, s02, s12 = h00 * a + a * h11 + b * c, h00 * b + a * c + b * h22, a * b + h11 * c + c * h22
+        # H^T H/2 - eps^2
+        x00 = half * (h00 * h00 + h10 * h10 + h20 * h20) - s00
+        x11 = half * (h01 * h01 + h11 * h11 + h21 * h21) - s11
+        x22 = half * (h02 * h02 + h12 * h12 + h22 * h22) - s22
+        x01 = half * (h00 * h01 + h10 * h11 + h20 * h21) - s01
+        x02 = half * (h00 * h02 + h10 * h12 + h20 * h22) - s02
+        x12 = half * (h01 * h02 + h11 * h12 + h21 * h22) - s12
+        # s, and the part of P2 that is symmetric: C : X - s eps + tr(eps) s
+        r = lame * trace
+        t00, t11, t22 = r + twice * h00, r + twice * h11, r + twice * h22
+        t01, t02, t12 = twice * a, twice * b, twice * c
+        y = lame * (x00 + x11 + x22)
+        p00 = y + twice * x00 - (r * h00 + twice * s00) + trace * t00
+        p11 = y + twice * x11 - (r * h11 + twice * s11) + trace * t11
+        p22 = y + twice * x22 - (r * h22 + twice * s22) + trace * t22
+        p01 = twice * x01 - (r * a + twice * s01) + trace * t01
+        p02 = twice * x02 - (r * b + twice * s02) + trace * t02
+        p12 = twice * x12 - (r * c + twice * s12) + trace * t12
+        # and W s, W = (0 u v; -u 0 w; -v -w 0)
+        gradient[k] = scale * (p00 + u * t01 + v * t02)
+        gradient[e + k] = scale * (p01 + u * t11 + v * t12)
+        gradient[2 * e + k] = scale * (p02 + u * t12 + v * t22)
+        gradient[3 * e + k] = scale * (p01 - u * t00 + w * t02)
+        gradient[4 * e + k] = scale * (p11 - u * t01 + w * t12)
+        gradient[5 * e + k] = scale * (p12 - u * t02 + w * t22)
+        gradient[6 * e + k] = scale * (p02 - v * t00 - w * t01)
+        gradient[7 * e + k] = scale * (p12 - v * t01 - w * t11)
+        gradient[8 * e + k] = scale * (p22 - v * t02 - w * t12)
