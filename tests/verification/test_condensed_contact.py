@@ -47,7 +47,7 @@ def press(body, face, time, depth, series, friction, slide=None, tolerance=1e-9)
     parts = FaceOperators(body, lambda: face.stiffness)
     scene = Scene(
         parts.nodes,
-        Solid(series.long_term_modulus, series.moduli, series.relaxation_times, np.zeros(2)),
+        Solid(series.long_term_modulus, series.moduli, series.relaxation_times),
         RoadMotion(np.inf, 0.0),
         KernelLaw(friction.static_coefficient, *friction.kernel_arguments),
         Solver(tolerance, 5000),
@@ -273,3 +273,11 @@ def test_the_estimated_error_of_the_face_covers_what_a_finer_face_changes(name, 
     for extreme in (np.max, np.min):
         change = abs(extreme(finer.tangential_force) - extreme(one.tangential_force)) / size
         assert change < estimate.tangential + 2e-3
+
+
+def test_the_negative_peak_of_t_on_the_rig_is_that_of_fine_fe_meshes(rig):
+    """Rectangle, 22 degC, 0.2 mm, 300 rpm: FE at 0.5 mm has -11.47 N (8 layers) and -11.63 N (16), Richardson's limit
+    of 2, 1 and 0.5 mm is -11.5 N, a ring of other elements says -11.2 to -11.5 N. Within 3 % of that range."""
+    assert 0.97 * 11.2 < -roll(rig).tangential_force.min() < 1.03 * 11.5
+    small = roll(rig, CondensedSettings(finite_strain=False)).tangential_force.min()
+    assert -small < 10.5  # what the second order of strain and rotation brings

@@ -17,16 +17,15 @@ from tread_validate.spring.condensed.inputs import (
     Scene,
     Solid,
     Solver,
+    Windows,
     fresh_state,
     scratch,
 )
-from tread_validate.spring.condensed.march import Windows, take_step
-from tread_validate.spring.condensed.step import start
+from tread_validate.spring.condensed.march import start, take_step
 from tread_validate.spring.inputs import KernelLaw
 
 NORMAL, SHEAR, DEPTH, SPEED, DT = 3e5, 1e5, 1e-4, 0.1, 1e-5
 FORCE = NORMAL * DEPTH
-NO_STRETCH = np.zeros(2)
 
 
 class Springs:
@@ -35,7 +34,7 @@ class Springs:
     def __init__(self, stiffness, law, moduli=None):
         n = stiffness.shape[0] // 3
         terms = (np.zeros(1), np.ones(1)) if moduli is None else moduli
-        solid = Solid(1.0, *terms, NO_STRETCH)
+        solid = Solid(1.0, *terms)
         compliance = np.linalg.inv(stiffness).astype(np.float32)
         face = FaceNodes(np.full(n, 1e-6), np.zeros(n, dtype=np.int64), compliance)
         law = KernelLaw(law.static_coefficient, *law.kernel_arguments)
@@ -44,7 +43,7 @@ class Springs:
         self.windows = Windows(np.array([0, n]), np.array([[-1, 0]]), pool)
         self.state, self.work, self.n = fresh_state(n, terms[0].size), scratch(n, terms[0].size), n
         self.height = DEPTH
-        start(self.pose(self.height), solid, self.state)
+        start(self.pose(self.height), self.scene, self.state, self.work)
 
     def pose(self, height):
         face = np.column_stack([np.arange(self.n) * 1e-3, np.zeros(self.n), np.zeros(self.n)])

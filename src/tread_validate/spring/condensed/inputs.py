@@ -15,6 +15,8 @@ Integers = NDArray[np.int64]
 
 FREE, STICK, SLIP = 0, 1, 2
 """What a node of the face does."""
+ROWS = 2
+"""Rows of nodes in a cell; windows begin and end between cells."""
 
 
 class Solid(NamedTuple):
@@ -175,6 +177,23 @@ class Scratch(NamedTuple):
     moved: Singles
     coarse: Singles
     gradient: Singles
+
+
+class Windows(NamedTuple):
+    """Operators of windows of cells.
+
+    Attributes
+    ----------
+    first : (cells + 1,) array of int
+        First node of each cell, and n.
+    offset : (cells, cells + 1) array of int
+        Where the operator of the cells a..b-1 begins in `pool`, at [a, b]; -1 where it is not there yet.
+    pool : (size,) array, N/m per Pa
+    """
+
+    first: Integers
+    offset: Integers
+    pool: Singles
 
 
 class Solver(NamedTuple):

@@ -8,12 +8,9 @@ import numpy as np
 
 from ...kernels import kernel
 from .contact import Tempo
-from .inputs import Array, FaceState, Integers, Pose, Scene, Scratch, Singles
+from .inputs import ROWS, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Windows
 from .second_order import follow_up, rest, shifted
 from .step import approach, hold, put, settle, widest
-
-ROWS = 2
-"""Rows of nodes in a cell; windows begin and end between cells."""
 
 
 class Course(NamedTuple):
@@ -43,23 +40,6 @@ class Record(NamedTuple):
     displacement: Array
     code: Integers
     sweeps: Integers
-
-
-class Windows(NamedTuple):
-    """Operators of windows of cells.
-
-    Attributes
-    ----------
-    first : (cells + 1,) array of int
-        First node of each cell, and n.
-    offset : (cells, cells + 1) array of int
-        Where the operator of the cells a..b-1 begins in `pool`, at [a, b]; -1 where it is not there yet.
-    pool : (size,) array, N/m per Pa
-    """
-
-    first: Integers
-    offset: Integers
-    pool: Singles
 
 
 @kernel()

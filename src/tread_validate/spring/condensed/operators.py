@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from .body import Body
-from .inputs import FaceNodes, Integers, Singles
-from .march import ROWS, Windows
+from .inputs import ROWS, FaceNodes, Integers, Singles, Windows
 
 Array = NDArray[np.float64]
 

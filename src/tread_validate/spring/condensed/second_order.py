@@ -24,7 +24,7 @@ from .inputs import FaceState, Pose, Scratch, SecondOrder, Singles
 
 LARGEST = 0.5
 """Norm of H beyond which P2 grows no more: there a second order says nothing."""
-CHANGE = 0.2
+CHANGE = 0.1
 """v is found at every other step, and whenever a displacement has changed by this part of the largest one."""
 FARTHEST = 2.0
 """v is extrapolated over at most so many times the time between the last two."""
@@ -105,7 +105,7 @@ def _strain(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) ->
 
 
 @kernel(reorder=True)
-def _dot(a: Singles, b: Singles) -> float:
+def _dot(a: Singles, b: Singles) -> np.float32:
     total = np.float32(0.0)
     for j in range(a.size):
         total += a[j] * b[j]

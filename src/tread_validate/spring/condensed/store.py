@@ -19,8 +19,8 @@ from ..stiffness import StiffnessRatios, static_ratios
 from .body import Body, BodySettings, FreeShape, make_body
 from .condense import FaceStiffness, condense
 from .finite_strain import second_order_arrays, second_order_of
-from .kept import Arrays, keep, kept, load
 from .inputs import SecondOrder, Singles
+from .kept import Arrays, keep, kept, load
 from .operators import FaceOperators, inverse
 
 Array = NDArray[np.float64]
@@ -109,7 +109,9 @@ def ready(
     found = load("windows", key)
     if found is not None:
         operators.learn(found["offset"], found["pool"])
-    return ReadyFace(shape, body, arrays["follow"], second_order_of(arrays, body, poissons_ratio), arrays["bend"], operators, key)
+    return ReadyFace(
+        shape, body, arrays["follow"], second_order_of(arrays, body, poissons_ratio), arrays["bend"], operators, key
+    )
 
 
 @lru_cache(maxsize=32)
