@@ -183,7 +183,7 @@ def test_wlf_constants_are_recovered_from_overlap(surrogate: FractionalZener) ->
     """
     settings_ = RouteSettings(band=BAND, fit_wlf=True, replicates=0)
     clean = material_route(synthetic_sweeps(surrogate), surrogate.wlf, 22.0, settings_)
-    assert (clean.wlf.c1, clean.wlf.c2_K) == pytest.approx((7.9241, 113.6), rel=1e-3)
+    assert (clean.law.c1, clean.law.c2_K) == pytest.approx((7.9241, 113.6), rel=1e-3)
     noisy = material_route(synthetic_sweeps(surrogate, 0.02), surrogate.wlf, 22.0, settings_).wlf_fit
     assert noisy is not None
     for value, exact, deviation in zip((noisy.wlf.c1, noisy.wlf.c2_K), (7.9241, 113.6), noisy.deviations, strict=True):

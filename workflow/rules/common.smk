@@ -42,7 +42,9 @@ DATA_FILES = sorted(
     {str(path) for case in STUDY_CASES for path in case.input_files()}
     | {str(path) for path in study.library_files()}
 )
-LIBRARY_FILES = [str(library_file(name, study.root)) for name in library_names(study.root)]
+LIBRARY_FILES = [
+    str(library_file(name, study.root)) for name in library_names(study.root)
+]
 ENGINE = study.model.engine
 RUNS = {
     "embedded": "fe",

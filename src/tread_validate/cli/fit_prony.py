@@ -65,6 +65,7 @@ _Replicates = Annotated[int, typer.Option("--resamples", min=0, max=20000, help=
 _Origin = Annotated[str, typer.Option("--origin", help="measured or synthetic; a file may say it")]
 _Source = Annotated[str, typer.Option("--source", help="where the data come from, one line")]
 _Card = Annotated[Path | None, typer.Option("--abaqus-card", help="write the ABAQUS material card here too")]
+_Study = Annotated[Path | None, typer.Option("--study", help="tell what this study's runs need of the series")]
 _Figure = Annotated[Path | None, typer.Option("--figure", help="write a picture (PNG) here")]
 
 
@@ -99,6 +100,7 @@ def command(
     source: _Source = "",
     card: _Card = None,
     figure: _Figure = None,
+    study: _Study = None,
 ) -> None:
     """Shift and fit sweeps; write a material file that a study reads, with its quality and uncertainty.
 
@@ -141,6 +143,7 @@ def command(
 
         mark = ", synthetic" if kind == "synthetic" else ""
         draw.save(figure, (9.4, 6.6), lambda canvas: draw.material(route, canvas, mark))
+    _tell_needs(route, study)
     _tell(route, f"{kind} data: {told}", reference, (c1, c2, ts), (poisson, density))
     typer.echo(f"wrote {output}")
 
@@ -175,6 +178,22 @@ def _refuse_contradictions(
         raise InputError("--vertical-shift", "given constants", "--fit-wlf with it")
     if band is not None and not 0 < band[0] < band[1]:
         raise InputError("--band", f"{band[0]:g} {band[1]:g}", "0 < LOW < HIGH")
+
+
+def _tell_needs(route: MaterialRoute, study: Path | None) -> None:
+    """Print the frequencies that a study's runs need against those that were measured, and the errors there."""
+    from ..material.worth import REFUSE_ABOVE, worth_for
+    from ..study import load_study
+
+    if study is None:
+        low, high = route.band
+        typer.echo(f"fitted to {low:.3g} to {high:.3g} rad/s; --study tells whether the runs of a study need more")
+        return
+    worth = worth_for(load_study(study).cases(), route, "of this fit")
+    for line in worth.lines():
+        typer.echo(line, err=line.startswith("warning"))
+    if (worth.largest_error or 0.0) > REFUSE_ABOVE:
+        typer.echo(f"warning: above {100 * REFUSE_ABOVE:g} % the study refuses it", err=True)
 
 
 def _tell(

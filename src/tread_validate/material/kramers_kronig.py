@@ -36,18 +36,22 @@ class KramersKronig:
         Relative standard deviation of E' between neighbouring points.
     dispersion_ratio : float
         Measured rise of E' over the rise that E'' implies; 1 for a linear causal material.
+    ratio_deviation : float
+        Its standard deviation from the noise: a narrow band does not hold the ratio well.
     """
 
     predicted_storage_modulus: Array
     mismatch: float
     noise: float
     dispersion_ratio: float
+    ratio_deviation: float
 
     @property
     def consistent(self) -> bool:
-        """Mismatch at most 5 % and twice the noise, dispersion ratio within 0.9..1.1."""
+        """Mismatch at most 5 % and twice the noise, dispersion ratio within 0.9..1.1 and twice its deviation."""
         low, high = DISPERSION_RANGE
-        return self.mismatch <= LARGEST_MISMATCH + 2.0 * self.noise and low <= self.dispersion_ratio <= high
+        apart = max(low - self.dispersion_ratio, self.dispersion_ratio - high)
+        return self.mismatch <= LARGEST_MISMATCH + 2.0 * self.noise and apart <= 2.0 * self.ratio_deviation
 
 
 def kramers_kronig(angular_frequency: Array, storage_modulus: Array, loss_modulus: Array) -> KramersKronig:
@@ -74,7 +78,11 @@ def kramers_kronig(angular_frequency: Array, storage_modulus: Array, loss_modulu
     away = predicted / storage_modulus - 1.0
     noise = scatter(w, away, 2.0).noise
     mismatch = float(np.sqrt(max(float(np.mean(away**2)) - noise**2, 0.0)))
-    return KramersKronig(predicted, mismatch, noise, ratio)
+    # the constant and the ratio are a line through E': its slope's deviation, and the mean error of E'' beside it
+    spread = float(np.linalg.inv(rows.T @ rows)[1, 1]) ** 0.5
+    lost = scatter(w, ((x / (1.0 + x * x)) @ spectrum) / loss_modulus - 1.0, 2.0).noise
+    deviation = float(np.hypot(noise * spread, 2.0 * lost / np.sqrt(w.size)))
+    return KramersKronig(predicted, mismatch, noise, ratio, deviation)
 
 
 def _spectrum(w: Array, loss: Array, times: Array, order: NDArray[np.intp]) -> Array:

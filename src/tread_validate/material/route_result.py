@@ -147,6 +147,7 @@ class MaterialRoute:
             "terms_that_carry": int(np.sum(series.moduli > 1e-9 * series.instantaneous_modulus)),
             "kramers_kronig_mismatch_percent": round(100 * self.consistency.mismatch, 3),
             "kramers_kronig_dispersion_ratio": round(self.consistency.dispersion_ratio, 4),
+            "kramers_kronig_ratio_deviation": round(self.consistency.ratio_deviation, 4),
             "kramers_kronig_consistent": self.consistency.consistent,
         }
         if self.wlf_fit is not None:

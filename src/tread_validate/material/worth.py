@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..geometry import path_of
-from ..study import Case, Compound, FractionalZener, PronyFile, SpringPots, SweepFile
+from ..study import Case, Compound, FractionalZener, PronyFile, SpringPots, SweepFile, TimeShift
 from .compound import compound_route, fit_surrogate
 from .material_file import read_material
+from .route_result import MaterialRoute
 from .time_shift import relative_shift, told
 
 Array = NDArray[np.float64]
@@ -110,8 +111,7 @@ def worths(cases: Sequence[Case]) -> tuple[Worth, ...]:
 
 def _worth(name: str, cases: list[Case]) -> Worth:
     compound = cases[0].compound
-    bands = np.array([_band(case) for case in cases])
-    needed = float(bands[:, 0].min()), float(bands[:, 1].max())
+    needed = _needed(cases, compound.data_temperature_degC, compound.time_shift)
     left = tuple(key for key in ("wlf", "poissons_ratio", "density_kg_m3") if key not in compound.model_fields_set)
     if compound.shift is not None:
         left = tuple(key for key in left if key != "wlf")
@@ -121,16 +121,22 @@ def _worth(name: str, cases: list[Case]) -> Worth:
     return Worth(name, needed, known, errors[0], errors[1], over, consistent, shift, left)
 
 
-def _band(case: Case) -> tuple[float, float]:
-    """Return the frequencies of one run at the compound's data temperature, rad/s.
+def worth_for(cases: Sequence[Case], route: MaterialRoute, name: str) -> Worth:
+    """Return what a fitted series is worth for the cases, whatever compounds they have."""
+    needed = _needed(cases, route.fit.series.reference_temperature, route.law)
+    errors, over = _used(route.fit.angular_frequency, route.fit.storage_residual, route.fit.loss_residual, needed)
+    return Worth(name, needed, route.band, *errors, over, route.consistency.consistent, told(route.law), ())
+
+
+def _needed(cases: Sequence[Case], reference: float, law: TimeShift) -> tuple[float, float]:
+    """Return the frequencies of all runs at the `reference` temperature of the data in degC, rad/s.
 
     From one over the time in contact of a point at half the block's length to one over the time in which it takes up
     90 % of its largest compression: what relaxes faster has relaxed while it is loaded.
     """
-    low, high = rates_of_loading(case)
-    compound = case.compound
-    shift = float(relative_shift(case.temperature, compound.data_temperature_degC, compound.time_shift))
-    return low * shift, high * shift
+    shifts = relative_shift(np.array([case.temperature for case in cases]), reference, law)
+    bands = np.array([rates_of_loading(case) for case in cases]) * shifts[:, None]
+    return float(bands[:, 0].min()), float(bands[:, 1].max())
 
 
 def rates_of_loading(case: Case) -> tuple[float, float]:
