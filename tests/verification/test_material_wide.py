@@ -42,8 +42,13 @@ def route_of(kind: str, decades: float, noise: float, seed: int, replicates: int
 
 @pytest.mark.parametrize("noise", [0.01, 0.05])
 def test_bands_hold_the_true_curve_and_the_points_at_every_width(noise: float) -> None:
-    """95 % bands over 51 sets: true moduli and raw points are inside in 90 to 98 %."""
+    """95 % bands over 51 sets: true moduli and raw points are inside in 90 to 98 %, of points at every width.
+
+    The mean over the sets has a sampling error of 0.7 % (points 0.2 %), so that the measured 97 % lies clear of both
+    ends. Coverage is pointwise: neighbours along a curve share their error, so one set alone scatters by 10 %.
+    """
     true, points = [], []
+    at_width: dict[int, list[float]] = {decades: [] for decades in DECADES}
     for kind in ("zener", "fractional", "havriliak_negami"):
         for decades in DECADES:
             for seed in range(5 if decades < 20 else 1):
@@ -53,8 +58,11 @@ def test_bands_hold_the_true_curve_and_the_points_at_every_width(noise: float) -
                 for band, part in ((bands.storage_modulus, modulus.real), (bands.loss_modulus, modulus.imag)):
                     true.append(np.mean((band.lower <= part) & (part <= band.upper)))
                 points += list(bands.points_inside)
+                at_width[decades] += list(bands.points_inside)
     assert 0.90 <= np.mean(true) <= 0.98
     assert 0.90 <= np.mean(points) <= 0.98
+    for decades, own in at_width.items():
+        assert 0.90 <= np.mean(own) <= 0.98, decades
 
 
 @pytest.mark.parametrize("kind", ["zener", "fractional", "havriliak_negami"])
@@ -75,16 +83,25 @@ def test_loss_modulus_of_another_scale_is_inconsistent_at_every_width(decades: i
     assert not kramers_kronig(w, storage, 1.3 * loss).consistent
 
 
-def test_single_bad_points_are_found_at_every_width() -> None:
-    """Three points 20 % off in 1 % noise are outliers, and next to nothing else is."""
+@pytest.mark.parametrize(("noise", "least"), [(0.01, 15), (0.02, 12)])
+def test_single_bad_points_are_found_at_every_width(noise: float, least: int) -> None:
+    """Three points 20 % off at each of five widths: all of them in 1 % noise, four in five in 2 %; nothing else.
+
+    Against the median of four neighbours such a point stands off by ln 1.2/(1.22 noise) = 15 and 7.5 deviations. The
+    test asks for some 4, in units of a scale that is taken from a dozen points hereabouts and is itself uncertain by a
+    fifth; the point's own noise adds one. So 3 % noise (5 deviations) is the limit, and 2 % is close to it.
+    """
+    found = others = 0
     for decades in DECADES:
-        w, storage, loss = measured("fractional", decades, 0.01, 4)
+        w, storage, loss = measured("fractional", decades, noise, 4)
         bad = np.array([5, 12, 20])
         storage[bad] *= 1.2
         sweep = Sweep(22.0, w, storage, loss, np.arange(w.size, dtype=np.int64))
         route = material_route((sweep,), Wlf(), 22.0, RouteSettings(replicates=0))
-        assert np.all(route.outlier[bad])
-        assert route.outliers <= 4
+        found += int(route.outlier[bad].sum())
+        others += route.outliers - int(route.outlier[bad].sum())
+    assert found >= least
+    assert others <= 1  # a false one in a hundred sets
 
 
 def test_scatter_is_told_from_what_no_series_can_follow() -> None:

@@ -59,14 +59,15 @@ def test_a_voltage_is_no_force(tmp_path: Path, record: RigRecord) -> None:
 
 
 def test_channels_with_other_clocks_are_brought_to_the_forces(tmp_path: Path, record: RigRecord) -> None:
-    """A trigger sampled half as often, started 0.2 s later: peaks within the passes' own 3 %.
+    """A trigger sampled half as often, started 0.2 s later: every pass that is left keeps its peak to 0.1 %.
 
-    The 0.2 s before are a gap, so the pass in it is left out.
+    The edge moves by up to a step of 0.1 ms in 200 ms, which stretches a pass by 0.05 %. The 0.2 s before are a gap,
+    so the pass in it is left out.
     """
     whole = cut_passes(record)
     late = cut_passes(read_record(tdms(tmp_path / "a.tdms", record, slow=2, offset=0.2), CHANNELS))
-    assert late.peak_normal_force.mean == pytest.approx(whole.peak_normal_force.mean, rel=0.03)
-    assert late.count < whole.count
+    assert late.count == whole.count - 1
+    np.testing.assert_allclose(late.normal_force.max(axis=1), whole.normal_force.max(axis=1)[1:], rtol=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -130,7 +131,7 @@ def test_missed_and_false_triggers_do_not_cost_a_pass(record: RigRecord) -> None
 
 
 def test_a_revolution_without_contact_is_left_out(record: RigRecord) -> None:
-    """The block lifted for one revolution: one pass fewer, and the mean does not sink."""
+    """The block lifted for one revolution: that pass is left out, and those not beside it keep their peaks to 0.1 %."""
     whole = cut_passes(record)
     rate = record.sampling_rate
     normal = record.normal_force.copy()
@@ -138,13 +139,18 @@ def test_a_revolution_without_contact_is_left_out(record: RigRecord) -> None:
     third = slice(int(2 * 0.2 * rate) + middle % 1, int(3 * 0.2 * rate))
     normal[third] = np.median(normal)
     passes = cut_passes(replace(record, normal_force=normal))
-    assert passes.passes_without_contact >= 1
-    assert passes.peak_normal_force.mean == pytest.approx(whole.peak_normal_force.mean, rel=0.03)
+    assert (passes.passes_without_contact, passes.count) == (1, whole.count - 1)
+    peaks, before = passes.normal_force.max(axis=1), whole.normal_force.max(axis=1)
+    np.testing.assert_allclose(peaks[[0, 2, 3]], before[[0, 3, 4]], rtol=1e-3)
+    assert peaks[1] == pytest.approx(before[2], rel=0.01)  # its free running lacks what was lifted
 
 
 @pytest.mark.parametrize("direction", [1, -1])
 def test_forces_of_a_turning_cell_come_back_in_axes_fixed_to_the_axle(direction: int) -> None:
-    """Turned into the wheel's axes and back, contact at 120 degrees: to 1 % of the peak (steps of 0.25 N)."""
+    """Turned into the wheel's axes and back, contact at 120 degrees: to 1 % of the peak (steps of 0.25 N).
+
+    Unturned, T is wrong by 8.2 % of the largest N: by N sin t, largest at 5.3 degrees, where N is 0.89 of its peak.
+    """
     record = synthetic_record(revolutions=6, drift=0.0, noise=0.0).record
     angle = wheel_angles(record)
     zero = 2.0 * np.pi / 3.0
@@ -159,7 +165,7 @@ def test_forces_of_a_turning_cell_come_back_in_axes_fixed_to_the_axle(direction:
     back = axle_fixed(cell, zero, direction)
     assert np.max(np.abs(back.normal_force - n)) < 0.01 * n.max()
     assert np.max(np.abs(back.tangential_force - f)) < 0.01 * n.max()
-    assert np.max(np.abs(cell.tangential_force - f)) > 0.3 * f.max()  # what unturned axes would cost
+    assert np.max(np.abs(cell.tangential_force - f)) == pytest.approx(0.082 * n.max(), rel=0.03)
 
 
 def test_half_width_of_a_mean_peak_adds_passes_noise_and_cell(record: RigRecord) -> None:
