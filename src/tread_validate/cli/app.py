@@ -19,9 +19,6 @@ from ..errors import TreadValidateError, one_line
 from ..files import protected
 from .options import paths_of, refuse_overwriting
 
-# every matrix here is small: threads of the linear algebra library would only wait for each other
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
 EXIT_DONE, EXIT_INPUT, EXIT_UNEXPECTED = 0, 2, 4  # 1 and 3: see the exceptions
 EXIT_INTERRUPTED = 130  # as shells count an interrupt from the keyboard
 

@@ -9,6 +9,8 @@ import typer
 
 from .options import number
 
+POOR_OVERLAP = 0.1  # RMS relative difference of neighbouring sweeps: far above any analyser's scatter
+
 if TYPE_CHECKING:
     from ..material import MaterialRoute
     from ..study import TimeShift
@@ -221,6 +223,11 @@ def _tell(
     if route.overlap is not None and route.overlap.apart:
         typer.echo(
             f"warning: {route.overlap.apart} pair(s) of neighbouring sweeps share no band: nothing holds their shift"
+        )
+    if route.overlap is not None and route.overlap.misfit > POOR_OVERLAP:
+        typer.echo(
+            f"warning: neighbouring sweeps lie {100 * route.overlap.misfit:.3g} % apart where they overlap: another "
+            "shift (--fit-wlf, --free-shift, --shift-table)?"
         )
     if properties == (0.47, 1000.0):
         typer.echo("not given, so the paper's: Poisson's ratio 0.47, 1000 kg/m3")

@@ -46,33 +46,39 @@ class Quantity:
 DMA = (
     Quantity(
         "temperature", "temperature",
-        ("temperature", "temp", "t", "sampletemperature", "tsample", "ts", "samptemp"),
+        ("temperature", "temp", "t", "sampletemperature", "tsample", "ts", "samptemp", "temperatur",
+         "probentemperatur"),
         TEMPERATURE, "--temperature-unit",
     ),
     Quantity(
         "frequency", "frequency",
-        ("frequency", "freq", "f", "angularfrequency", "angfrequency", "angfreq", "omega", "ω", "w"),
+        ("frequency", "freq", "f", "angularfrequency", "angfrequency", "angfreq", "omega", "ω", "w",
+         "frequenz", "kreisfrequenz"),
         FREQUENCY, "--frequency-unit",
     ),
     Quantity(
         "storage", "E'",
         ("storagemodulus", "storage", "estor", "estorage", "e'", "eprime", "estore", "storagemod",
-         "tensilestoragemodulus", "storagemoduluse'", "e'storagemodulus"), PRESSURE, "--modulus-unit",
+         "tensilestoragemodulus", "storagemoduluse'", "e'storagemodulus", "speichermodul",
+         "speichermodule'"), PRESSURE, "--modulus-unit",
     ),
     Quantity(
         "loss", "E''",
         ("lossmodulus", "loss", "eloss", "e''", "eprimeprime", "edoubleprime", "lossmod", "tensilelossmodulus",
-         "lossmoduluse''", "e''lossmodulus"), PRESSURE, "--modulus-unit",
+         "lossmoduluse''", "e''lossmodulus", "verlustmodul", "verlustmodule''"), PRESSURE, "--modulus-unit",
     ),
     Quantity(
-        "complex", "|E*|", ("complexmodulus", "e*", "|e*|", "dynamicmodulus", "ecomplex", "absolutemodulus"),
+        "complex", "|E*|",
+        ("complexmodulus", "e*", "|e*|", "dynamicmodulus", "ecomplex", "absolutemodulus", "komplexermodul"),
         PRESSURE, "--modulus-unit",
     ),
     Quantity(
         "tan_delta", "tan delta",
-        ("tandelta", "tand", "tanδ", "tan", "lossfactor", "tandel", "tan(delta)", "tan(d)", "tan(δ)"), NONE,
+        ("tandelta", "tand", "tanδ", "tan", "lossfactor", "tandel", "tan(delta)", "tan(d)", "tan(δ)",
+         "verlustfaktor"), NONE,
     ),
-    Quantity("phase", "delta", ("phase", "phaseangle", "delta", "δ", "lossangle"), ANGLE, "--phase-unit"),
+    Quantity("phase", "delta", ("phase", "phaseangle", "delta", "δ", "lossangle", "phasenwinkel"), ANGLE,
+             "--phase-unit"),
     Quantity("set", "sweep", ("set", "sweep", "sweepnumber", "sweepno"), NONE),
 )  # fmt: skip
 FRICTION = (

@@ -142,7 +142,7 @@ class MaterialRoute:
             "loss_rms_percent": round(100 * fit.loss_rms, 4),
             "largest_storage_error_percent": round(100 * float(np.max(np.abs(fit.storage_residual))), 4),
             "largest_loss_error_percent": round(100 * float(np.max(np.abs(fit.loss_residual))), 4),
-            "excess_of_sign_control_percent": round(100 * fit.excess, 6),
+            "excess_of_sign_control_percent": round(100 * fit.excess, 6) + 0.0,
             "terms_asked": self.settings.terms,
             "terms_that_carry": int(np.sum(series.moduli > 1e-9 * series.instantaneous_modulus)),
             "kramers_kronig_mismatch_percent": round(100 * self.consistency.mismatch, 3),
