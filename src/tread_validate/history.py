@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -26,6 +27,7 @@ NEEDED = COLUMNS[:2]
 """What every history has; a model that does not know the others leaves them out."""
 OPTIONAL = ("tangential_force", "slipping_fraction")
 FORMATS = ("%.9f", "%.5f", "%.5f", "%.5f")
+MINUS_NOTHING = re.compile(r"-(0\.0+)(?=[,\n])")  # what rounds to zero has no sign; a time of -1e-6 s keeps its own
 
 
 @dataclass(frozen=True)
@@ -142,7 +144,7 @@ class History:
         rows = io.StringIO()
         formats = [form for name, form in zip(COLUMNS, FORMATS, strict=True) if name in names]
         np.savetxt(rows, np.column_stack(self._columns()) + 0.0, fmt=formats, delimiter=",")
-        return head + ",".join(names) + "\n" + rows.getvalue().replace("-0.00000", "0.00000")
+        return head + ",".join(names) + "\n" + MINUS_NOTHING.sub(r"\1", rows.getvalue())
 
     def _names(self) -> tuple[str, ...]:
         given = (True, True, self.gives_tangential, self.gives_slip)

@@ -86,3 +86,12 @@ def test_forces_in_kilonewtons_by_their_header_are_refused(tmp_path):
     path.write_text("time_s,normal_force_kN\n0,1\n1,2\n")
     with pytest.raises(InputError, match="normal_force_N"):
         History.read_csv(path)
+
+
+def test_times_just_before_the_touch_keep_their_sign(tmp_path):
+    """At 100 kHz a sample may lie microseconds before t = 0; forces that round to zero have none."""
+    time = np.array([-1.5e-5, -5e-6, 5e-6, 1.5e-5])
+    path = tmp_path / "fast.csv"
+    History(time, np.array([-1e-9, 0.0, 1.0, 2.0]), np.full(4, -1e-9), np.zeros(4)).write_csv(path)
+    np.testing.assert_array_equal(History.read_csv(path).time, time)
+    assert "-0.00000," not in path.read_text(encoding="utf-8")
