@@ -160,10 +160,10 @@ def test_every_pass_pushes_only_and_ends_free(
     ready = prepare(case)
     rubber = ready.rubber
     bound = (rubber.long_term_modulus + rubber.moduli.sum()) * interference / case.height * case.length * case.width
-    # no element is pulled, to 1e-12 of what it can carry; adding up over a skewed edge cancels below half of 10 uN
+    # no element is pulled, to 1e-12 of what it can carry, nor is the block, to 1e-9
     strongest = bound / (case.length * case.width)
     assert np.all(ready.element(creep_ratio)[0][:, PRESSURE] >= -1e-12 * strongest)
-    assert np.all(history.normal_force > -5e-6)
+    assert np.all(history.normal_force >= -1e-9 * bound)
     assert history.normal_force.max() <= bound * (1.0 + 1e-6)
     assert np.all((history.slipping_fraction >= 0.0) & (history.slipping_fraction <= 1.0))
     assert history.normal_force[-1] == 0.0

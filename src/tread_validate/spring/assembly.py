@@ -12,16 +12,54 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels import kernel
-from .element import INTEGRALS
+from .element import INTEGRALS, PRESSURE
 
 Array = NDArray[np.float64]
 
 
 @kernel()
-def _hermite(w: float, dt: float, y0: float, y1: float, s0: float, s1: float) -> float:
-    """Cubic between y0 and y1 with slopes s0 and s1, at the fraction w of dt."""
-    v = 1.0 - w
-    return v * v * ((1.0 + 2.0 * w) * y0 + w * dt * s0) + w * w * ((1.0 + 2.0 * v) * y1 - v * dt * s1)
+def _part(w: float, j: int, mean: float, y0: float, y1: float) -> tuple[float, float]:
+    """Return the integral of column j from a node to the fraction w of a step, and the integral of that, over dt, dt^2.
+
+    `mean` is over the step, y0 and y1 are at its ends. Forces are the parabola with these; where that would pull
+    (rubber that lets go or touches within the step), pressure falls from y0 and rises to y1 linearly, each over the
+    same part of the step. So no pressure is negative, and both integrals belong to one function: nothing is left where
+    they cancel. Areas are even over a step.
+    """
+    if j >= 2:
+        return mean * w, 0.5 * mean * w * w
+    if j == PRESSURE and 3.0 * mean < y0 + y1:
+        r = 2.0 * mean / (y0 + y1)
+        if r <= 0.0:
+            return 0.0, 0.0
+        u, v = min(w, r), max(w - (1.0 - r), 0.0)
+        once = y0 * (u - 0.5 * u * u / r) + 0.5 * y1 * v * v / r
+        twice = y0 * (0.5 * u * u - u * u * u / (6.0 * r) + 0.5 * r * (w - u)) + y1 * v * v * v / (6.0 * r)
+        return once, twice
+    c = 6.0 * mean - 3.0 * (y0 + y1)
+    square = w * w
+    once = y0 * (w - 0.5 * square) + 0.5 * y1 * square + c * square * (0.5 - w / 3.0)
+    twice = square * (y0 * (0.5 - w / 6.0) + y1 * w / 6.0 + c * w * (1.0 / 6.0 - w / 12.0))
+    return once, twice
+
+
+@kernel()
+def _within(record: Array, k: int, j: int, w: float, dt: float) -> tuple[float, float]:
+    """Return both integrals of column j from node k to the fraction w of the step after it."""
+    mean = (record[k + 1, INTEGRALS + j] - record[k, INTEGRALS + j]) / dt
+    once, twice = _part(w, j, mean, record[k, j], record[k + 1, j])
+    return dt * once, dt * dt * twice
+
+
+@kernel()
+def _second_integrals(record: Array, dt: float) -> Array:
+    """Return the integrals of the integrals of the first four columns at the nodes, (nodes, 4)."""
+    twice = np.zeros((record.shape[0], 4))
+    for k in range(record.shape[0] - 1):
+        for j in range(4):
+            _, more = _within(record, k, j, 1.0, dt)
+            twice[k + 1, j] = twice[k, j] + dt * record[k, INTEGRALS + j] + more
+    return twice
 
 
 @kernel()
@@ -34,6 +72,7 @@ def block_forces(
     """
     forces = np.zeros((nodes, 4))
     last = record.shape[0] - 1
+    integrals = _second_integrals(record, dt)
     for k in range(positions.size):
         shift = positions[k] / (speed * dt)
         if abs(shift - round(shift)) < 1e-9:
@@ -45,20 +84,18 @@ def block_forces(
             at = i - whole
             beyond = max(at - last, 0)
             for j in range(4):
-                column, second = INTEGRALS + j, INTEGRALS + 4 + j
+                column = INTEGRALS + j
                 if beyond > 0:
                     once = record[last, column]
-                    twice = record[last, second] + (beyond - part) * dt * once
+                    twice = integrals[last, j] + (beyond - part) * dt * once
                 elif part == 0.0:
-                    once, twice = record[at, column], record[at, second]
+                    once, twice = record[at, column], integrals[at, j]
                 else:
                     w = 1.0 - part
-                    once0, once1 = record[at - 1, column], record[at, column]
-                    if j < 2:
-                        once = _hermite(w, dt, once0, once1, record[at - 1, j], record[at, j])
-                    else:
-                        once = part * once0 + w * once1
-                    twice = _hermite(w, dt, record[at - 1, second], record[at, second], once0, once1)
+                    before = record[at - 1, column]
+                    once, twice = _within(record, at - 1, j, w, dt)
+                    twice += integrals[at - 1, j] + w * dt * before
+                    once += before
                 forces[i, j] += first_order * once + second_order * twice
     return forces
 
