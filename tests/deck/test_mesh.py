@@ -16,6 +16,7 @@ from tread_validate import deck
 from tread_validate.deck.mesh import BlockMesh, block_mesh, layer_fractions
 from tread_validate.errors import InputError
 from tread_validate.study import Block, Case, DeckSettings, Sipe
+from tread_validate.study.case import with_mesh
 
 FloatArray = NDArray[np.float64]
 GAUSS = 1.0 / math.sqrt(3.0)
@@ -65,7 +66,7 @@ def test_rig_block_is_the_annular_sector_of_its_face(cases: tuple[Case, ...]) ->
     """
     for shape, skew in (("rectangle", 0.0), ("parallelogram", math.radians(30.0))):
         case = next(one for one in cases if one.is_rig and one.block_name == shape)
-        built = deck.build(replace(case, deck=case.deck.model_copy(update={"symmetry": "full"})))
+        built = deck.build(replace(case, deck=DeckSettings(symmetry="full")))
         cut = 0.01**2 / (6.0 * math.cos(skew) ** 2)
         assert _volumes(built.points, built.elements).sum() == pytest.approx(3840.0 * (1.0 - cut), rel=1e-8)
 
@@ -129,3 +130,17 @@ def test_parallelogram_touches_with_the_corner_on_the_side_its_skew_points_to(
 def test_mesh_that_would_fill_the_memory_is_refused(cases: tuple[Case, ...]) -> None:
     with pytest.raises(InputError, match="element_size_mm"):
         block_mesh(cases[0].block, DeckSettings(element_size_mm=0.01))
+
+
+def test_the_rig_has_short_elements_and_the_belt_square_ones(cases: tuple[Case, ...]) -> None:
+    """`mesh_of_path` of the paper's study: 0.5 mm in the direction of travel on the rig, 2 mm across; else 1 mm."""
+    for case in cases:
+        mesh = block_mesh(case.block, case.deck)
+        columns, across = (50, 10) if case.is_rig else (25, 20)
+        across //= 2 if case.block.shape == "rectangle" else 1
+        assert mesh.elements.shape[0] == columns * across * case.deck.layers
+
+
+def test_a_mesh_study_keeps_the_shape_of_the_elements(rig_case: Case) -> None:
+    fine = with_mesh(rig_case, {"element_size_mm": 1.0, "layers": 2})
+    assert block_mesh(fine.block, fine.deck).elements.shape[0] == 100 * 10 * 2

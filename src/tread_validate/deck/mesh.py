@@ -70,7 +70,8 @@ class BlockMesh:
 
 @lru_cache(maxsize=32)
 def block_mesh(block: Block, settings: DeckSettings, root: Path | None = None) -> BlockMesh:
-    """Mesh `block` with elements of `settings.element_size_mm`, graded towards the contact face.
+    """Mesh `block` with elements of `settings.element_size_mm`, longer or shorter in the direction of travel by
+    `settings.element_length_ratio`, graded towards the contact face.
 
     Each stretch of rubber between sipes gets a whole number of columns of its own; a block with a mesh file of its own
     (relative to `root`) is what the file says. Cached: the cases of a study share a few meshes.
@@ -89,7 +90,7 @@ def block_mesh(block: Block, settings: DeckSettings, root: Path | None = None) -
     parts = _parts(block.width_mm, settings.element_size_mm)
     across = np.linspace(-0.5, 0.5, parts + 1) * block.width_mm
     if half:
-        across = np.linspace(0.0, 0.5, max(1, round(0.5 * parts)) + 1) * block.width_mm
+        across = np.linspace(0.0, 0.5, (parts + 1) // 2 + 1) * block.width_mm
     if any(sipe.depth_mm is not None for sipe in block.sipes):
         mesh = _with_blind_sipes(block, settings, heights, across)
     else:
@@ -177,7 +178,7 @@ def _counted(columns: int, across: int, layers: int, settings: DeckSettings) -> 
 
 def _of_stretches(block: Block, settings: DeckSettings, heights: FloatArray, across: FloatArray) -> BlockMesh:
     """Mesh a block whose sipes, if any, go all the way through: one grid for each stretch of rubber."""
-    size = settings.element_size_mm
+    size = settings.element_size_mm * settings.element_length_ratio
     stretches = rubber_stretches(block)
     columns = sum(_parts(end - begin, size) for begin, end in stretches)
     _counted(columns, across.size - 1, heights.size - 1, settings)
@@ -196,7 +197,7 @@ def _of_stretches(block: Block, settings: DeckSettings, heights: FloatArray, acr
 
 def _with_blind_sipes(block: Block, settings: DeckSettings, heights: FloatArray, across: FloatArray) -> BlockMesh:
     """Mesh a block some of whose sipes end below the mount: one grid, with the elements inside the sipes left out."""
-    size = settings.element_size_mm
+    size = settings.element_size_mm * settings.element_length_ratio
     along, gap_depth = [0.0], []
     edges = [(0.0, 0.0)]  # where a stretch ends, and how deep it is open (height fraction)
     for sipe in block.sipes:

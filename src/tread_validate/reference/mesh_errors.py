@@ -15,7 +15,8 @@ from ..study import Case
 from ..yaml_text import read_mapping, write_yaml
 
 SCHEMA = 2
-MESH_KEYS = ("element_size_mm", "layers", "refinement", "hourglass", "bulk_viscosity")
+LENGTH_RATIO = "element_length_ratio"  # told where elements are not as long as wide
+MESH_KEYS = ("element_size_mm", LENGTH_RATIO, "layers", "refinement", "hourglass", "bulk_viscosity")
 
 
 def applies_to(case: Case, engine: str) -> dict[str, Any]:
@@ -28,7 +29,7 @@ def applies_to(case: Case, engine: str) -> dict[str, Any]:
         "engine": engine,
         "path_kind": case.path.kind,
         "block": case.block.model_dump(mode="json", exclude_defaults=True, exclude={"origin", "source"}),
-        "mesh": {key: deck[key] for key in MESH_KEYS},
+        "mesh": {key: deck[key] for key in MESH_KEYS if key != LENGTH_RATIO or deck[key] != 1.0},
     }
 
 

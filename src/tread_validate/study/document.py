@@ -12,7 +12,7 @@ from ..geometry import AnyPath, Block
 from .compound import NamedCompound
 from .own_model import OwnModel
 from .run import Run
-from .settings import DeckSettings, SpringSettings, Tolerance
+from .settings import DeckSettings, PathMesh, SpringSettings, Tolerance
 
 
 class Study(Strict):
@@ -32,6 +32,9 @@ class Study(Strict):
     )
     spring: Annotated[SpringSettings, Numerics("spring")] = SpringSettings()
     deck: Annotated[DeckSettings, Numerics("deck")] = DeckSettings()
+    mesh_of_path: Annotated[dict[Name, PathMesh], Numerics("deck")] = Field(
+        {}, description="what of the decks' mesh is not as `deck` says, by path"
+    )
     tolerances: Annotated[dict[str, Tolerance], Label("what is good enough: judges runs, changes none")] = Field(
         {}, description="errors that are good enough, by quantity or score; the rest keep their defaults"
     )
@@ -53,4 +56,7 @@ class Study(Strict):
                 for name in (names,) if isinstance(names, str) else names:
                     if name not in table:
                         raise ValueError(f"runs[{index}].{key}: got {name}, expected one of {', '.join(sorted(table))}")
+        for name in self.mesh_of_path:
+            if name not in self.paths:
+                raise ValueError(f"mesh_of_path: got {name}, expected one of {', '.join(sorted(self.paths))}")
         return self

@@ -92,7 +92,7 @@ def _case(
         creep_ratio=None if free_rolling else level["creep"] * PERCENT,
         free_rolling=free_rolling,
         spring=study.spring,
-        deck=study.deck,
+        deck=mesh.of(study.deck) if (mesh := study.mesh_of_path.get(level["path"])) else study.deck,
         root=root,
         speed_rpm=path.revolutions(speed),
     )

@@ -41,6 +41,9 @@ class DeckSettings(Strict):
     """How the finite element decks are made."""
 
     element_size_mm: Positive = Field(1.0, description="edge of an element in the plane of the contact face")
+    element_length_ratio: Annotated[FiniteFloat, Field(ge=0.1, le=10)] = Field(
+        1.0, description="edge of an element in the direction of travel over that across the block"
+    )
     layers: Annotated[int, Field(ge=2, le=64)] = Field(8, description="elements over the block's height")
     refinement: Annotated[FiniteFloat, Field(ge=1, le=10)] = Field(
         1.5, description="height of the layer at the mount over that of the layer at the contact face"
@@ -59,3 +62,16 @@ class DeckSettings(Strict):
         description="auto: a block that z = 0 halves (a rectangle) is meshed for z >= 0 alone, on a plane of symmetry; "
         "half: other blocks are refused; full: every block whole. Readers double forces and energies of a half",
     )
+
+
+class PathMesh(Strict):
+    """What of the mesh a path has in its own way; the rest is as the study's deck settings say."""
+
+    element_size_mm: Positive | None = None
+    element_length_ratio: Annotated[FiniteFloat, Field(ge=0.1, le=10)] | None = None
+    layers: Annotated[int, Field(ge=2, le=64)] | None = None
+    refinement: Annotated[FiniteFloat, Field(ge=1, le=10)] | None = None
+
+    def of(self, deck: DeckSettings) -> DeckSettings:
+        """Return the deck settings of a case on the path."""
+        return deck.model_copy(update=self.model_dump(exclude_none=True))

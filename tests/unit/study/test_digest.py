@@ -22,6 +22,9 @@ EVERYTHING = {
     "schema_version": 1,
     "name": "everything",
     "title": "Every kind of input, two of each where a run names it",
+    "mesh_of_path": {
+        "rig": {"element_size_mm": 2.0, "element_length_ratio": 0.5, "layers": 6, "refinement": 2.0},
+    },
     "compounds": {
         "zener": SOURCED
         | {
