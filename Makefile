@@ -13,7 +13,7 @@ TRUST_MODELS ?= 0
 SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) trust_models=$(TRUST_MODELS) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
-.PHONY: help report check map test lint verify reference mesh-study hierarchy bench docs test-cluster test-robustness clean
+.PHONY: help report check map test lint verify reference mesh-study hierarchy bench docs test-pythons test-cluster test-robustness clean
 
 help: ## Show this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -64,6 +64,9 @@ docs: $(BIN)/.installed-dev report ## Build the guide, links checked: build/docs
 	@$(BIN)/python docs/generate.py
 	@$(BIN)/mkdocs build --strict --quiet
 	@echo "The guide: build/docs/index.html"
+
+test-pythons: $(BIN)/.installed-dev system-packages ## The small study on every other Python found (3.11 to 3.13): same decks, tables within noise
+	@WITH_PYTHONS=1 $(BIN)/pytest -q tests/verification/test_python_versions.py
 
 test-cluster: $(BIN)/.installed-dev ## A 200-run study through a real Slurm on this machine (root)
 	@sh workflow/setup/packages.sh slurm-wlm munge gfortran
