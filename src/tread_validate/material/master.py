@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,6 +21,8 @@ VerticalShift = Literal["none", "fitted"]
 
 KNOTS_PER_DECADE = 1.0
 RIDGE = 1e-3
+POLISHES = 12
+HEIGHT_DIGITS = 6  # of a vertical factor near 1
 ROUNDS = 3  # of weights that set outliers aside
 LEAST_SCALE = 5e-4  # in ln E: what no instrument resolves is not an outlier
 
@@ -144,8 +148,8 @@ def fit_wlf(
     begin = np.array([c1, np.log(max(c2 - max(lowest, 0.0), 1.0))])
     for _ in range(ROUNDS):
         found = least_squares(residual, begin, x_scale=[1.0, 0.1], xtol=1e-10, ftol=1e-10)
-        begin = found.x
-        c1, c2 = wlf_of(found.x)
+        begin = _polished(residual, found.x)
+        c1, c2 = wlf_of(begin)
         pieces.reweigh(c1, c2)
     final, heights, parameters = pieces.residual(c1, c2)
     steps = [(1e-4, 0.0), (0.0, 1e-3)]
@@ -157,8 +161,30 @@ def fit_wlf(
     )
     variance = float(final @ final) / max(final.size - parameters - 2, 1)
     covariance: Array = np.asarray(variance * np.linalg.pinv(jacobian.T @ jacobian), dtype=np.float64)
+    c1, c2 = (_determined(value, float(np.sqrt(covariance[k, k]))) for k, value in enumerate((c1, c2)))
     fitted = Wlf(c1=c1, c2_K=c2, reference_temperature_degC=reference_temperature)
-    return WlfFit(fitted, covariance, heights, float(np.sqrt(np.mean(final**2))))
+    return WlfFit(fitted, covariance, np.round(heights, HEIGHT_DIGITS), float(np.sqrt(np.mean(final**2))))
+
+
+def _determined(value: float, deviation: float) -> float:
+    """Return the value rounded to a thousandth of its deviation: no digit that a library's kernel decides."""
+    return round(value, 3 - math.floor(math.log10(max(deviation, 1e-6 * abs(value)))))
+
+
+def _polished(residual: Callable[[Array], Array], q: Array) -> Array:
+    """Return the minimum near `q` to round-off: where a search stops depends on the processor, the minimum does not."""
+    size = np.array([1e-4, 1e-4])
+    before = np.inf
+    for _ in range(POLISHES):
+        jacobian = np.column_stack(
+            [(residual(q + step) - residual(q - step)) / (2.0 * step.sum()) for step in np.diag(size)]
+        )
+        step = np.linalg.solve(jacobian.T @ jacobian, jacobian.T @ residual(q))
+        length = float(np.max(np.abs(step)))
+        if not length < before:
+            break  # round-off, or a minimum that the data do not determine
+        q, before = q - step, length
+    return q
 
 
 class _Overlap:
