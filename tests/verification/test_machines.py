@@ -33,16 +33,18 @@ from pathlib import Path
 from tread_validate.cli.app import run
 
 root, out, rig, belt = Path(sys.argv[1]), Path(sys.argv[2]), *sys.argv[3:]
-study, data = str(root / "config" / "study.yaml"), root / "reference_data"
+config, data = root / "config", root / "reference_data"
+study, laboratory = str(config / "study.yaml"), str(config / "laboratory.yaml")
 sweeps = str(data / "material" / "synthetic_sweeps.csv")
 for arguments in (
     ["deck", study, "--case", rig, "-o", str(out / "decks")],
     ["deck", study, "--case", belt, "-o", str(out / "decks")],  # with the search for its creep ratio
+    ["deck", laboratory, "--case", "belt-60c-0p2mm-16p7mps-creep0p3", "-o", str(out / "laboratory")],  # from raw files
     ["spring", study, "--case", rig, "-o", str(out / "paper")],
     ["spring", study, "--case", belt, "-o", str(out / "paper")],
     ["spring", study, "--case", rig, "--variant", "shape_factor", "-o", str(out / "shape")],  # elastic solve
     ["compare", str(out / "paper" / f"{rig}.csv"), str(out / "shape" / f"{rig}.csv"), "-o", str(out / "compare.csv")],
-    ["fit-prony", sweeps, "--band", "0.25", "2500", "--resamples", "50", "-o", str(out / "material.yaml")],
+    ["fit-prony", sweeps, "--band", "0.25", "2500", "--fit-wlf", "--resamples", "50", "-o", str(out / "material.yaml")],
     ["fit-friction", str(data / "friction" / "synthetic_tribometer.csv"), "-o", str(out / "friction.yaml")],
     ["import-rig", str(data / "rig" / "synthetic_record.csv"), "-o", str(out / "rig")],
     ["regress", str(out / "peaks.csv"), "-o", str(out / "coefficients.csv")],
@@ -63,7 +65,7 @@ def peaks() -> str:
     return "\n".join(rows) + "\n"
 
 
-def work_on(machine: dict[str, str], folder: Path, root: Path) -> dict[str, str]:
+def work_on(machine: dict[str, str], folder: Path, root: Path) -> dict[str, bytes]:
     """Run the small study as on another machine; return every file it wrote, by name."""
     folder.mkdir()
     (folder / "peaks.csv").write_text(peaks(), encoding="utf-8")
@@ -73,12 +75,12 @@ def work_on(machine: dict[str, str], folder: Path, root: Path) -> dict[str, str]
         env=bare, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    found = (path for path in sorted(folder.rglob("*")) if path.is_file() and path.suffix != ".vtu")
-    return {path.relative_to(folder).as_posix(): path.read_text("utf-8") for path in found}
+    found = (path for path in sorted(folder.rglob("*")) if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in found}
 
 
 @pytest.fixture(scope="module")
-def files(tmp_path_factory: pytest.TempPathFactory, root: Path) -> dict[str, dict[str, str]]:
+def files(tmp_path_factory: pytest.TempPathFactory, root: Path) -> dict[str, dict[str, bytes]]:
     folder = tmp_path_factory.mktemp("machines")
     with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
         jobs = {
@@ -88,7 +90,7 @@ def files(tmp_path_factory: pytest.TempPathFactory, root: Path) -> dict[str, dic
         return {name: job.result() for name, job in jobs.items()}
 
 
-def test_every_machine_writes_the_same_bytes(files: dict[str, dict[str, str]]) -> None:
+def test_every_machine_writes_the_same_bytes(files: dict[str, dict[str, bytes]]) -> None:
     """Decks, friction routine, spring histories, material, friction and rig files, scores and regressions."""
     here = files["as it is"]
     assert {f"decks/{case}/{case}.inp" for case in (RIG, BELT)} <= set(here)

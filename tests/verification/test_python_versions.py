@@ -77,6 +77,7 @@ def environment(python: str, folder: Path, root: Path) -> Path:
 def small_study(folder: Path, helper: ModuleType, binaries: Path) -> Any:
     """Run the FE engine, the spring model and the comparison on the small study in a workspace of its own."""
     helper.BINARIES = binaries
+    folder.mkdir(exist_ok=True)
     small = helper.make_small(folder)
     for cache in folder.rglob("__pycache__"):
         shutil.rmtree(cache)  # kernels compiled by the other Python
