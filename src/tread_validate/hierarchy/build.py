@@ -62,7 +62,7 @@ def build(
             held += own_rows(study, cases, references, folders.models, judged)
         put("errors", pareto.CASE_COLUMNS, held)
         put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
-        put("fe_meshes", pareto.MESH_COLUMNS, pareto.mesh_rows(folders.references, engine))
+        put("fe_meshes", fe_meshes.MESH_COLUMNS, fe_meshes.mesh_rows(folders.references, engine))
         figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")
     if "effects" in parts:
         say("what each effect is worth")
