@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt
 from ..study.typical import path_and_block, path_kind, typical_cases
-from . import compatibility, compounds, effects, figures, pareto, published, sensitivity
+from . import compatibility, compounds, effects, fe_meshes, figures, pareto, published, sensitivity
 from .own_models import own_rows
 
 Table = list[dict[str, Any]]
