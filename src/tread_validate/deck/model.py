@@ -27,7 +27,7 @@ from .placement import LEAD_IN, MountTable, Placement, mount_tables, place
 from .steps import steps
 from .vfric import GENERAL, PAIRS, user_friction
 
-POINT_DECIMALS = 6  # of the mesh for pictures, mm: further digits depend on the processor
+POINT_DECIMALS = 6  # of the mesh for ParaView, mm: further digits depend on the processor
 MARGIN = 1.05  # of the pass over the time of geometrical contact: sheared rubber lets go a little later
 INCLUDED = re.compile(r"(mesh|motion)-[a-z0-9_]+-[0-9a-f]{10}\.inp")
 
@@ -134,7 +134,7 @@ def build(case: Case, *, single_file: bool = False, general_contact: bool = Fals
         input_text=_join([*before, *own, *after, *pair]),
         constant_friction_text=constant,
         user_text=user.source,
-        points=np.round(placement.points, POINT_DECIMALS) + 0.0,  # + 0.0 turns -0.0 into 0.0
+        points=placement.points,
         elements=mesh.elements,
         lead_in=LEAD_IN,
         pass_time=pass_time,
@@ -166,7 +166,8 @@ def write_mesh(deck: WrittenDeck, file: FilePath | str) -> None:
     """Write the block's mesh (mm) for ParaView."""
     import meshio
 
-    grid = meshio.Mesh(deck.points, [("hexahedron", deck.elements)])
+    points = np.round(deck.points, POINT_DECIMALS) + 0.0  # + 0.0 turns -0.0 into 0.0
+    grid = meshio.Mesh(points, [("hexahedron", deck.elements)])
     with atomic_path(file) as temporary:
         meshio.write(temporary, grid, file_format="vtu")
 
