@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from ..errors import InputError
+from ..files import read_text, write_text
 from ..reference import FeStore
 from ..source_code import code_digest
 from ..study import LoadedStudy, conditions_digest
@@ -19,6 +20,7 @@ from . import wording
 from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table
 from .inputs import plain_table
 from .marks import Marks
+from .svg import lighter
 from .tables import number, read_table, records
 
 FIGURES = (
@@ -65,12 +67,14 @@ def hierarchy_section(folder: Path | None, study: LoadedStudy, drawn: Path, mark
     for name, title, caption in FIGURES:
         source = folder / "figures" / f"{name}.svg"
         if source.is_file():
-            drawn.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, drawn / f"hierarchy-{name}.svg")
+            svg, data = drawn / f"hierarchy-{name}.svg", drawn / f"hierarchy-{name}.csv"
+            write_text(svg, lighter(read_text(source)))
+            if name in tables:
+                shutil.copyfile(folder / f"{name}.csv", data)
             table = tables.get(name)
             own = marks.of_column(table["assumed"]) if table is not None and "assumed" in table else ()
             figures.append(
-                Figure(f"hierarchy-{name}", title, caption, drawn / f"hierarchy-{name}.svg", own, wide=name == "sobol")
+                Figure(svg.stem, title, caption, svg, own, wide=name == "sobol", data=data if name in tables else None)
             )
     if figures:
         items.append(Figures(tuple(figures)))

@@ -7,6 +7,7 @@ import hashlib
 import itertools
 import json
 import re
+import struct
 import zlib
 from collections.abc import Iterable, Mapping
 from importlib import resources
@@ -19,7 +20,17 @@ from markupsafe import Markup
 from .content import Figures, FirstScreen, Report, Row, Table
 from .marks import by_origin
 
-SCRIPTS = ("start.js", "figures.js", "filter.js", "sort.js", "browser.js", "heatmap.js", "scatter.js", "end.js")
+SCRIPTS = (
+    "start.js",
+    "svg.js",
+    "figures.js",
+    "filter.js",
+    "sort.js",
+    "browser.js",
+    "heatmap.js",
+    "scatter.js",
+    "end.js",
+)
 
 
 def render(report: Report) -> str:
@@ -131,7 +142,18 @@ def _policy(*scripts: str) -> str:
 def _plotly() -> str:
     # read as a file: importing plotly itself costs a second and gives nothing more
     text = resources.files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
-    return text.replace("\r\n", "\n")
+    return ascii_script(text.replace("\r\n", "\n"))
+
+
+def ascii_script(text: str) -> str:
+    """Write every sign of a script beyond ASCII as an escape: a browser then keeps a byte a sign instead of two."""
+    units = re.compile("[^\x00-\x7f]+")
+    return units.sub(lambda found: "".join(f"\\u{unit:04x}" for unit in _utf16(found[0])), text)
+
+
+def _utf16(text: str) -> tuple[int, ...]:
+    packed = text.encode("utf-16-be")
+    return struct.unpack(f">{len(packed) // 2}H", packed)
 
 
 def _templates() -> Path:

@@ -8,8 +8,8 @@ from pathlib import Path
 import meshio
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, PathPatch
+from matplotlib.path import Path as MeshPath
 from numpy.typing import NDArray
 
 from ...geometry import Path as BlockPath
@@ -178,9 +178,12 @@ def mesh(folder: Path, file: Path, title: str, marks: tuple[Mark, ...], height: 
     used = np.unique(bricks)
     points = points - 0.5 * (points[used].min(axis=0) + points[used].max(axis=0))
     polygons = _visible(points, bricks)
+    closed = np.concatenate([polygons, polygons[:, :1]], axis=1)
 
     def paint(axes: Axes) -> None:
-        axes.add_collection(PolyCollection(list(polygons), facecolors="#f4ead2", edgecolors="#3c4650", linewidths=0.3))
+        # one path for all: the faces that are seen of a block do not hide each other
+        outline = MeshPath.make_compound_path(*(MeshPath(corners, closed=True) for corners in closed))
+        axes.add_patch(PathPatch(outline, facecolor="#f4ead2", edgecolor="#3c4650", linewidth=0.3))
         axes.autoscale_view()
         axes.set(aspect="equal")
         axes.set_axis_off()

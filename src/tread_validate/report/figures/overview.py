@@ -14,7 +14,7 @@ from ...compare.thinned import thin
 from ...files import write_text
 from ...history import History
 from ...palette import Look
-from ...plotting import canvas, note, save, styled
+from ...plotting import canvas, note, styled
 from ...units import IN_MS
 from .. import wording
 from ..cases import CaseView
@@ -22,6 +22,7 @@ from ..content import Figure, Mark
 from ..histories import SAMPLES
 from ..marks import in_words
 from .numbers import numbers_text
+from .style import save_light
 
 SIZE = (6.6, 2.75)  # inches
 PEAK = {"normal": "peak_normal_force", "tangential": "peak_positive_tangential_force"}
@@ -51,7 +52,7 @@ def overview(
         if marks:
             note(figure, in_words(marks), low=True)
         svg, data = folder / "overview.svg", folder / "overview.csv"
-        save(figure, svg)
+        save_light(figure, svg)
         write_text(data, numbers_text(grid))
     caption = f"{view.label}."
     if reference:

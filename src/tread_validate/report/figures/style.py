@@ -9,10 +9,11 @@ from pathlib import Path
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 
-from ...files import write_text
+from ...files import read_text, write_text
 from ...plotting import MARGINS, note, panel, save, styled
 from ..content import Figure, Figures, Item, Mark, Paragraph
 from ..marks import in_words
+from ..svg import lighter
 from .numbers import Numbers, numbers_text
 
 SIGNS_PER_INCH, HANDLE, LINE = 15.0, 8, 0.17  # of a legend: signs an inch, width of a handle in signs, inches a line
@@ -48,9 +49,15 @@ def draw(
         if marks:
             note(canvas, in_words(marks))
         svg, data = folder / f"{key}.svg", folder / f"{key}.csv"
-        save(canvas, svg)
+        save_light(canvas, svg)
         write_text(data, numbers_text([axes], numbers))
     return Drawn(Figure(key, title, caption, svg, marks, wide, data))
+
+
+def save_light(canvas: Canvas, file: Path) -> None:
+    """Save a figure as SVG with no more digits than are seen."""
+    save(canvas, file)
+    write_text(file, lighter(read_text(file)))
 
 
 def _legend_above(canvas: Canvas, axes: Axes) -> None:

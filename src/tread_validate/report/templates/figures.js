@@ -6,11 +6,11 @@ TV.figures = (function () {
   async function drawing(key) {
     if (TV.data.figures[key]) { return TV.inflate(TV.data.figures[key]); }
     const packed = document.querySelector("#figure-" + CSS.escape(key) + " img").src.split(",")[1];
-    return new TextDecoder().decode(Uint8Array.from(atob(packed), (sign) => sign.charCodeAt(0)));
+    return new TextDecoder().decode(TV.bytes(packed));
   }
   async function show(image) {
     if (image.src) { return; }
-    const text = await drawing(image.dataset.figure);
+    const text = TV.joined(await drawing(image.dataset.figure));
     if (!image.src) { image.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" })); }
     return image.decode();
   }
@@ -52,7 +52,7 @@ TV.figures = (function () {
     if (!chart) { return [kind === "png" ? await png(key) : new Blob([await drawing(key)], { type: "image/svg+xml" }), name]; }
     const address = await Plotly.toImage(chart, { format: kind, scale: kind === "png" ? 3 : 1, width: chart.clientWidth, height: chart.clientHeight });
     const body = address.slice(address.indexOf(",") + 1);
-    const bytes = kind === "svg" ? decodeURIComponent(body) : Uint8Array.from(atob(body), (sign) => sign.charCodeAt(0));
+    const bytes = kind === "svg" ? decodeURIComponent(body) : TV.bytes(body);
     return [new Blob([bytes], { type: kind === "svg" ? "image/svg+xml" : "image/png" }), name];
   }
   async function save(key, kind) {
@@ -64,7 +64,7 @@ TV.figures = (function () {
   function start() {
     const watch = new IntersectionObserver((entries) => {
       for (const entry of entries) { if (entry.isIntersecting) { show(entry.target); } else { hide(entry.target); } }
-    }, { rootMargin: "900px 0px" });
+    }, { rootMargin: "400px 0px" });
     images.forEach((image) => watch.observe(image));
     document.addEventListener("click", (event) => {
       const button = event.target.closest("button.save");
