@@ -16,6 +16,7 @@ def command(
     baseline: Annotated[
         Path | None, typer.Option("--baseline", help="folder of the baseline [default: the study's, in reports]")
     ] = None,
+    references: Annotated[Path, typer.Option(help="the reference data package")] = Path("reference_data"),
     who: Annotated[str | None, typer.Option("--who", help="who accepts; git's user name if left out")] = None,
     allow_dirty: Annotated[
         bool, typer.Option("--allow-dirty", help="accept from a tree with uncommitted changes")
@@ -35,7 +36,9 @@ def command(
     tables = tables or only_tables()
     facts = todays_tables(tables)
     baseline = baseline or Workspace(facts["study"]).baseline
-    made = accept(tables, baseline, reason, who=who, allow_dirty=allow_dirty, allow_stale=allow_stale)
+    made = accept(
+        tables, baseline, reason, who=who, allow_dirty=allow_dirty, allow_stale=allow_stale, references=references
+    )
     acceptance = made.acceptance
     typer.echo(f"{made.rows} rows accepted in {baseline}: {acceptance.reason}")
     typer.echo(f"by {acceptance.who}, {acceptance.when}, code {acceptance.commit}")

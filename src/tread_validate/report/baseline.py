@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from ..compare.baseline.histories import Histories, accepted_histories
 from ..compare.baseline.movement import Movement, movements
-from ..compare.baseline.store import load_baseline
+from ..compare.baseline.store import RECORD, load_baseline
 from ..compare.baseline.trend import read_trend
 from ..compare.quantities import HEADLINE
 from ..compare.tables import Delta, TrendRow, read_rows
 from . import wording
-from .content import Cell, Column, Item, Paragraph, Row, Section, Table, Tone
+from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table, Tone
 from .marks import Marks
 
 TITLE = "Change since the accepted baseline"
@@ -26,12 +27,17 @@ LIMIT = 60
 
 
 def baseline_section(
-    delta: Path | None, marks: Marks, tables: Path | None = None, accepted: Path | None = None
+    delta: Path | None,
+    marks: Marks,
+    tables: Path | None = None,
+    accepted: Path | None = None,
+    draw: Callable[[Sequence[Movement], Histories], tuple[Figure, ...]] | None = None,
 ) -> tuple[Section, tuple[Tone, str] | None]:
     """Return the section, and for the summary a tone and a sentence (None where no check was made).
 
     `tables` are those of today and `accepted` is the baseline's folder: where both are there, better and worse are
-    counted by model and quantity, and the headline errors of every accepted baseline are listed.
+    counted by model and quantity, the histories of those that moved most are drawn with `draw`, and the headline errors
+    of every accepted baseline are listed.
     """
     if delta is None or not delta.is_file():
         words = "No check against a baseline was made for this report; the command “tread-validate check” makes one."
@@ -49,11 +55,29 @@ def baseline_section(
     if flips:
         items.append(_table(flips, "flips", "Assessments that flipped"))
     if tables is not None and accepted is not None and (accepted / "baseline.yaml").is_file():
-        items += [_movements(movements(load_baseline(accepted), tables)), *_trend(read_trend(accepted))]
+        found = movements(load_baseline(accepted), tables)
+        items.append(_movements(found))
+        items += _drawn(found, accepted, draw)
+        items += _trend(read_trend(accepted))
     others = [row for row in rows if row.passed or row.kind != "flip"]
     if others:
         items.append(_table(others, "delta", "Cells that are not what they were"))
     return Section("baseline", TITLE, tuple(items)), outcome
+
+
+def _drawn(
+    found: Sequence[Movement],
+    accepted: Path,
+    draw: Callable[[Sequence[Movement], Histories], tuple[Figure, ...]] | None,
+) -> list[Item]:
+    """Return the histories before and after, or in words why there are none."""
+    if draw is None or not found:
+        return []
+    histories = accepted_histories(accepted, RECORD)
+    if not histories:
+        return [Paragraph("The baseline was accepted without histories, so none of before can be drawn.", tone="mute")]
+    figures = draw(found, histories)
+    return [Figures(figures)] if figures else []
 
 
 def _table(rows: Sequence[Delta], key: str, title: str) -> Table:
@@ -74,8 +98,7 @@ def _movements(found: Sequence[Movement]) -> Table:
     """Return better and worse by model and quantity, those that got worse in most cases first."""
     rows = []
     for item in found:
-        kind = "absolute" if item.unit != "1" else ("score" if item.metric == "iso18571_r" else "relative")
-        before, now = (wording.size(value, kind, item.unit) for value in (item.before, item.now))
+        before, now = (wording.size(value, item.error_type, item.unit) for value in (item.before, item.now))
         cells = (
             Cell(wording.source(item.predicted_source)),
             Cell(wording.quantity(item.quantity, item.metric)),

@@ -124,7 +124,7 @@ def compose(study_path: Path, places: Places) -> Report:
     drawn = figures.Drawings(
         study, tables, views, histories, look, marks, places.decks, places.reference, places.out / "figures", rig
     )
-    delta, moved = baseline_section(places.baseline_delta, marks, places.tables, places.out / "baseline")
+    delta, moved = baseline_section(places.baseline_delta, marks, places.tables, places.out / "baseline", drawn.moved)
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
     results += [table for table in (mesh_table(places.reference), sensitivity) if table is not None]

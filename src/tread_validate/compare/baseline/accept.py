@@ -14,6 +14,7 @@ from ...files import read_text
 from ...provenance import commit, version
 from ..tables import PeakRow, read_rows
 from .delta import BROKEN
+from .histories import histories_text
 from .store import Acceptance, Baseline, save_baseline
 from .trend import add_to_trend
 
@@ -29,8 +30,11 @@ def accept(
     when: str | None = None,
     allow_dirty: bool = False,
     allow_stale: bool = False,
+    references: Path | str = "reference_data",
 ) -> Baseline:
     """Write the tables as the baseline in `folder`, append their headline numbers to its trend, and return it.
+
+    Thinned histories of the runs go with them; `references` is where those of the FE runs lie.
 
     Raises
     ------
@@ -69,7 +73,7 @@ def accept(
         study=str(facts.get("study", "")),
         study_digest=str(facts.get("study_digest", "")),
     )
-    made = save_baseline(folder, tables, acceptance)
+    made = save_baseline(folder, tables, acceptance, histories_text(Path(tables), Path(references)))
     add_to_trend(folder, tables, acceptance)
     return made
 

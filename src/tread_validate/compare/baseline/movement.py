@@ -34,6 +34,11 @@ class Movement:
     before: float
     now: float
 
+    @property
+    def error_type(self) -> str:
+        """How the error is told: a share, a score's distance from 1, or in `unit`."""
+        return "absolute" if self.unit != "1" else ("score" if self.metric == "iso18571_r" else "relative")
+
 
 def movements(baseline: Baseline, folder: Path | str) -> tuple[Movement, ...]:
     """Return the movement of every model's headline quantities; those that got worse in most cases first."""

@@ -16,6 +16,7 @@ from ...provenance import sha256_text
 from ...yaml_text import read_mapping, write_yaml
 from ..quantities import SCALARS, Noise
 from ..tables import TABLES
+from .histories import HISTORIES
 
 SCHEMA_VERSION = 2
 RECORD = "baseline.yaml"
@@ -63,8 +64,8 @@ def todays_noise() -> dict[str, Noise]:
     return {quantity.name: quantity.noise for quantity in SCALARS}
 
 
-def save_baseline(folder: Path | str, tables: Path | str, acceptance: Acceptance) -> Baseline:
-    """Write the tables as they are and their record, the record last: a baseline without one does not load."""
+def save_baseline(folder: Path | str, tables: Path | str, acceptance: Acceptance, histories: str = "") -> Baseline:
+    """Write the tables as they are, thinned histories if any, and their record last: without one none loads."""
     place, source = Path(folder), Path(tables)
     texts = {name: read_text(source / f"{name}.csv") for name in TABLES}
     parsed = {name: _cells(text, source / f"{name}.csv") for name, text in texts.items()}
@@ -76,6 +77,9 @@ def save_baseline(folder: Path | str, tables: Path | str, acceptance: Acceptance
     }
     for name, text in texts.items():
         write_text(place / f"{name}.csv", text)
+    if histories:
+        write_text(place / HISTORIES, histories)
+        record["histories"] = {"sha256": sha256_text(histories)}
     write_yaml(place / RECORD, record)
     return Baseline(parsed, todays_noise(), acceptance)
 

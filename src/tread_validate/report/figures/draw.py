@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import pandas as pd
 
+from ...compare.baseline.histories import Histories
+from ...compare.baseline.movement import Movement
 from ...compare.rig_peaks import RigPeak
 from ...geometry import Family
 from ...history import History
@@ -21,6 +23,7 @@ from ..marks import Marks
 from ..table1 import regression_sources
 from ..tables import Tables, pairs_of
 from . import contact, errors, forces, geometry, material, regressions
+from .before_after import before_after, worst
 from .overview import overview
 from .style import Drawn
 
@@ -48,6 +51,18 @@ class Drawings:
         view = max(known, key=lambda view: len(self.histories[view.case_id]))
         own = tuple(row for row in self.tables.errors if row.case_id == view.case_id)
         return overview(self.folder, view, self.histories[view.case_id], self.looks, own, self.marks.of(view.assumed))
+
+    def moved(self, found: Sequence[Movement], accepted: Histories) -> tuple[Figure, ...]:
+        """Draw before and after of the runs that moved most since the baseline."""
+        views = {view.case_id: view for view in self.views}
+        return tuple(
+            before_after(
+                self.folder, item, accepted, self.histories.get(item.case_id, {}), views[item.case_id], self.looks,
+                self.marks,
+            )
+            for item in worst(found, accepted)
+            if item.case_id in views
+        )  # fmt: skip
 
     def regressions(self) -> tuple[Drawn, ...]:
         """Draw coefficients and residuals."""
