@@ -10,6 +10,8 @@ between stick and slip is Eq. (12).
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -80,6 +82,29 @@ def _stick_acceleration(motion: Motion, arc: float, c: float, dt: float) -> floa
     return (sticking(motion, mount_point(motion, arc + motion.speed * dt), c + along * dt)[3] - now) / dt
 
 
+class ElementState(NamedTuple):
+    """What an element remembers; every array is changed in place.
+
+    Attributes
+    ----------
+    radial, longitudinal : (n,) arrays, Pa m
+        Fading memory of each Prony term.
+    numbers : (10,) array
+        u (m) and its rate, longitudinal length (m) and its rate, radial length (m), place on the road, p, q (Pa), slip
+        speed (m/s), direction of slip.
+    codes : (3,) array of int
+        Mode, level of the sub-step, changes between stick and slip since the last node.
+    integrals : (8,) array
+        As in the record.
+    """
+
+    radial: Array
+    longitudinal: Array
+    numbers: Array
+    codes: NDArray[np.int64]
+    integrals: Array
+
+
 @kernel()
 def run_element(
     motion: Motion,
@@ -115,38 +140,90 @@ def run_element(
     int
         Tick of the release; -1 if the element still touches at the last node.
     """
+    state = ElementState(
+        np.zeros(rubber.moduli.size),
+        np.zeros(rubber.moduli.size),
+        np.zeros(10),
+        np.zeros(3, dtype=np.int64),
+        np.zeros(8),
+    )
+    touch(motion, rubber, height, arc_at_zero + motion.speed * first_tick * (memory.step / TICKS), state)
+    if first_tick % TICKS == 0:
+        k = first_tick // TICKS
+        record[k, PRESSURE], record[k, TOUCHING], record[k, DELTA] = state.numbers[6], 1.0, state.numbers[4]
+    tick = advance(motion, rubber, law, memory, height, arc_at_zero, first_tick, corners, tolerance, state, record)
+    if state.codes[0] != GONE:
+        return -1
+    _rest(state.integrals, tick, memory.step, record)
+    return tick
+
+
+@kernel()
+def touch(motion: Motion, rubber: Rubber, height: float, arc: float, state: ElementState) -> None:
+    """Start an element that touches, unloaded, at an arc (m)."""
+    at = mount_point(motion, arc)
+    delta, c, _rate, _slope, _drift = sliding(motion, at, 0.0)
+    _d, deflection, delta_rate, deflection_rate = sticking(motion, at, c)
+    u, total = height - delta, 0.0
+    for i in range(rubber.moduli.size):  # what the rounding of the first tick leaves
+        state.radial[i], state.longitudinal[i] = rubber.moduli[i] * u, 0.0
+        total += state.radial[i]
+    p = (rubber.long_term_modulus * u + total) / height
+    numbers = state.numbers
+    numbers[0], numbers[1], numbers[2], numbers[3] = u, -delta_rate, deflection, deflection_rate
+    numbers[4], numbers[5], numbers[6], numbers[7:] = delta, c, p, 0.0
+    state.codes[:], state.integrals[:] = 0, 0.0
+    state.codes[0] = STICK
+
+
+@kernel()
+def advance(
+    motion: Motion,
+    rubber: Rubber,
+    law: KernelLaw,
+    memory: Memory,
+    height: float,
+    arc_at_zero: float,
+    first_tick: int,
+    corners: NDArray[np.int64],
+    tolerance: float,
+    state: ElementState,
+    record: Array,
+) -> int:
+    """Follow an element that touches from `first_tick` to its release or the record's last node; see `run_element`.
+
+    Returns the tick reached. Loads and stores its state once: sub-steps work on scalars.
+    """
     n = rubber.moduli.size
     nodes = record.shape[0]
     dt_node = memory.step
     dt_tick = dt_node / TICKS
     modulus, shear_ratio, mass = rubber.long_term_modulus, rubber.shear_ratio, rubber.mass
-    radial, longitudinal = np.zeros(n), np.zeros(n)
+    radial, longitudinal, integrals = state.radial, state.longitudinal, state.integrals
     fresh_radial, fresh_longitudinal = np.empty(n), np.empty(n)
     form_r, form_l = np.empty(4), np.empty(4)
-    integrals = np.zeros(8)
-
-    tick = first_tick
-    at = mount_point(motion, arc_at_zero + motion.speed * tick * dt_tick)
-    delta, c, deflection_rate, _slope, _drift = sliding(motion, at, 0.0)
-    _d, deflection, delta_rate, deflection_rate = sticking(motion, at, c)
-    u, u_rate = height - delta, -delta_rate
-    total = 0.0
-    for i in range(n):  # what the rounding of the first tick leaves
-        radial[i] = rubber.moduli[i] * u
-        total += radial[i]
-    p, q = (modulus * u + total) / height, 0.0
-    slip_speed, direction, mode = 0.0, 0.0, STICK
-    level, events, corner = 0, 0, 0
+    u, u_rate, deflection, deflection_rate, delta = (
+        state.numbers[0],
+        state.numbers[1],
+        state.numbers[2],
+        state.numbers[3],
+        state.numbers[4],
+    )
+    c, p, q, slip_speed, direction = (
+        state.numbers[5],
+        state.numbers[6],
+        state.numbers[7],
+        state.numbers[8],
+        state.numbers[9],
+    )
+    mode, level, events = state.codes[0], state.codes[1], state.codes[2]
+    tick, corner = first_tick, 0
     while corner < corners.size and corners[corner] <= tick:
         corner += 1
-    if tick % TICKS == 0:
-        k = tick // TICKS
-        record[k, PRESSURE], record[k, TOUCHING], record[k, DELTA] = p, 1.0, delta
-
     while mode != GONE:
         node_end = (tick // TICKS + 1) * TICKS
         if node_end >= nodes * TICKS:
-            return -1
+            break
         stop = node_end
         if corner < corners.size and corners[corner] < stop:
             stop = corners[corner]
@@ -286,8 +363,8 @@ def run_element(
                 delta_new,
                 c_new,
             )
-            radial, fresh_radial = fresh_radial, radial
-            longitudinal, fresh_longitudinal = fresh_longitudinal, longitudinal
+            for i in range(n):
+                radial[i], longitudinal[i] = fresh_radial[i], fresh_longitudinal[i]
         tick += ticks
         if corner < corners.size and tick >= corners[corner]:
             corner += 1
@@ -305,7 +382,10 @@ def run_element(
                 record[k, FRICTION] = q
                 if mode == SLIP:
                     record[k, FRICTION] = direction * kinetic(law, p, slip_speed) * p
-    _rest(integrals, tick, dt_node, record)
+    numbers = state.numbers
+    numbers[0], numbers[1], numbers[2], numbers[3], numbers[4] = u, u_rate, deflection, deflection_rate, delta
+    numbers[5], numbers[6], numbers[7], numbers[8], numbers[9] = c, p, q, slip_speed, direction
+    state.codes[0], state.codes[1], state.codes[2] = mode, level, events
     return tick
 
 

@@ -35,6 +35,8 @@ def mount_point(motion: Motion, arc: float) -> MountPoint:
         theta = arc / surface
         sine, cosine = math.sin(theta), math.cos(theta)
         return mount * sine, axle - mount * cosine, sine, cosine, motion.speed / surface, 0.0
+    if motion.code == 4:
+        return _turned_mount_point(motion, arc)
     if motion.code == 3:
         return _pressed_mount(motion, arc)
     return _table_mount(motion, arc)
@@ -83,6 +85,18 @@ def _pressed_mount(motion: Motion, arc: float) -> MountPoint:
     else:
         sunk, rate = quarter - up, -1.0 / (left - released)
     return 0.0, height - depth * sunk, 0.0, 1.0, 0.0, quarter * depth * motion.speed * rate
+
+
+@kernel()
+def _turned_mount_point(motion: Motion, time: float) -> MountPoint:
+    """Between two poses: x, y, theta at first, then an even turn (rad/s) and even speeds along and towards the road."""
+    x, y, theta, turn, along, down = motion.parameters
+    half = 0.5 * turn * time
+    reach = time * (math.sin(half) / half if abs(half) > 1e-9 else 1.0)
+    sine, cosine = math.sin(theta + half), math.cos(theta + half)
+    x += reach * (along * cosine + down * sine)
+    y += reach * (along * sine - down * cosine)
+    return x, y, math.sin(theta + 2.0 * half), math.cos(theta + 2.0 * half), turn, down
 
 
 @kernel()
