@@ -19,6 +19,7 @@ from ..study import Case
 Array = NDArray[np.float64]
 
 MODELS: Mapping[str, str] = MappingProxyType({
+    "paper": "element_block:block_of",
     "condensed": "condensed.face_pass:block_of",
     "condensed_coarse": "condensed.face_pass:coarse_block_of",
 })  # fmt: skip
@@ -67,7 +68,8 @@ class TreadBlock:
     -----
     Axes: x in the direction of travel, y up, origin on the road (the big wheel's top); the mount moves from -x to +x.
     The time step is the host's: a face is followed best when it travels half an element (height/16) or less a step
-    while the contact's edge moves. Between steps the mount moves evenly.
+    while the contact's edge moves; springs of `paper` find touch, slip and release within a step. Between steps the
+    mount moves evenly.
     """
 
     def __init__(self, case: Case, model: str = "condensed") -> None:
@@ -97,8 +99,9 @@ class TreadBlock:
             Slope of the mount there.
         road_speed : float, m/s
             Of the road's surface towards +x, over the step.
-        mount : (k, 2) array, m, optional
-            Positions of the mount at `mount_points`; without it the mount is rigid.
+        mount : (k, 2) or (k, 3) array, m, optional
+            Positions of the mount at `mount_points` and its slope there (rad; `paper` takes differences where it is
+            not given); without it the mount is rigid.
 
         Returns
         -------
@@ -138,6 +141,7 @@ class TreadBlock:
         if mount is None:
             return None
         places = np.asarray(mount, dtype=np.float64)
-        if places.shape != (self.mount_points.size, 2) or not np.all(np.isfinite(places)):
+        sizes = ((self.mount_points.size, 2), (self.mount_points.size, 3))
+        if places.shape not in sizes or not np.all(np.isfinite(places)):
             raise InputError("tread block: mount", places.shape, f"{self.mount_points.size} finite positions (x, y), m")
         return places
