@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 
 HEAD = 65536  # bytes in which comments and heading stand
 LARGEST = 8_000_000_000  # bytes
+SEPARATORS = ";\t,"
+FEWEST_COLUMNS = 3  # two forces and a trigger or an angle
 
 
 @dataclass(frozen=True)
@@ -90,9 +92,10 @@ def _layout(path: Path) -> _Layout:
         if colon:
             comments[key.strip()] = value.strip()
         start += 1
+    start = _heading(lines, start)
     if start + 1 >= len(lines):
         raise InputError(path, "no rows", "a heading with column names over rows of numbers")
-    separator = max(";\t,", key=lines[start].count)
+    separator = max(SEPARATORS, key=lines[start].count)
     heading = [cell.strip().strip('"') for cell in lines[start].split(separator)]
     cells = [cell.strip().strip('"') for cell in lines[start + 1].split(separator)]
     units: list[str] = []
@@ -102,6 +105,12 @@ def _layout(path: Path) -> _Layout:
         cells = [cell.strip() for cell in lines[start + 1].split(separator)] if start + 1 < len(lines) else []
     comma = separator != "," and any("," in cell for cell in cells)
     return _Layout(encoding, separator, "," if comma else ".", heading, units, start + 2, comments)
+
+
+def _heading(lines: list[str], start: int) -> int:
+    """Return the first line from `start` that has columns enough for a record: what stands above is the instrument's."""
+    wide = (k for k in range(start, len(lines)) if max(map(lines[k].count, SEPARATORS)) >= FEWEST_COLUMNS - 1)
+    return next(wide, start)
 
 
 def _encoding(path: Path, data: bytes) -> str:

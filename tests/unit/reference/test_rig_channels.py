@@ -192,3 +192,19 @@ def test_the_worked_example_gives_the_peaks_of_its_page(root: Path, tmp_path: Pa
         assert abs(spread.mean - getattr(clean, name).mean) < passes.half_width(spread)
     turning = cut_passes(faulty).largest_tangential_force
     assert turning.mean > 1.2 * clean.largest_tangential_force.mean
+
+
+def test_lines_of_the_instrument_above_the_heading_are_passed_over(tmp_path: Path, record: RigRecord) -> None:
+    """Latin-1, semicolons, decimal commas, two lines above: the same forces."""
+    assert record.trigger is not None
+    time = np.arange(record.normal_force.size) / record.sampling_rate
+    rows = "\n".join(
+        f"{a:.4f};{n:.2f};{f:.2f};{v:.3f}".replace(".", ",")
+        for a, n, f, v in zip(time, record.normal_force, record.tangential_force, record.trigger, strict=True)
+    )
+    path = tmp_path / "export.csv"
+    path.write_text(f"Prüfstand 2\nDatum;25.11.2026\nZeit [s];Fz [N];Fx [N];Puls [V]\n{rows}\n", encoding="latin-1")
+    names = {"time_s": "Zeit", "normal_force_N": "Fz", "tangential_force_N": "Fx", "trigger_V": "Puls"}
+    read = read_record(path, names)
+    np.testing.assert_allclose(read.normal_force, record.normal_force, atol=1e-9)
+    assert read.sampling_rate == pytest.approx(record.sampling_rate, rel=1e-6)
