@@ -43,9 +43,13 @@ def command(
     from ..files import write_text
 
     left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)
+    table = read_peaks(peaks)
+    empty = [peak.case_id for members in table.values() for peak in members if peak.force is None]
+    if empty:
+        typer.echo(f"{len(empty)} row(s) without a force left out, first {empty[0]}", err=True)
     rows = [
         row
-        for source, members in read_peaks(peaks).items()
+        for source, members in table.items()
         for row in regress(
             members, source=source, exclude=left_out, reference_temperature=zero, level=level, drop_missing=True
         ).coefficients

@@ -108,7 +108,7 @@ def _layout(path: Path) -> _Layout:
 
 
 def _heading(lines: list[str], start: int) -> int:
-    """Return the first line from `start` that has columns enough for a record: what stands above is the instrument's."""
+    """Return the first line from `start` that has enough columns: what stands above is the instrument's."""
     wide = (k for k in range(start, len(lines)) if max(map(lines[k].count, SEPARATORS)) >= FEWEST_COLUMNS - 1)
     return next(wide, start)
 
