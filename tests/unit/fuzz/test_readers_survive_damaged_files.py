@@ -111,6 +111,11 @@ def tdms_record(path: Path) -> Any:
     return read_record(path, {name: f"rig/{name}" for name in names})
 
 
+def given_or_not(*columns: Any) -> bool:
+    """Whether each column is a history's or, its heading damaged, left out of it throughout."""
+    return all(bool(np.isnan(column).all()) or finite(column) for column in columns)
+
+
 def study_with_cases(path: Path) -> Any:
     study = load_study(path)
     study.cases()  # what cannot be is refused here at the latest
@@ -146,7 +151,7 @@ READERS = (
     Reader("deck for lint", ".inp", deck, lint, lambda findings: isinstance(findings, list)),
     Reader(
         "history", ".csv", history, History.read_csv,
-        lambda h: rising(h.time) and finite(h.normal_force, h.tangential_force, h.slipping_fraction),
+        lambda h: rising(h.time) and finite(h.normal_force) and given_or_not(h.tangential_force, h.slipping_fraction),
     ),
     Reader(
         "DMA sweeps", ".csv", file("reference_data/material/synthetic_sweeps.csv"), read_sweeps,
@@ -181,7 +186,7 @@ READERS = (
     ),
     Reader(
         "XY report", ".rpt", file("examples/own_study/data/synthetic_forces.rpt"), read_table,
-        lambda t: rising(t.values[:, 0]) and finite(t.values),
+        lambda t: rising(t.values[:, 0]) and not np.isinf(t.values).any(),  # NoValue is refused where it is used
     ),
     Reader("engine settings", ".yaml", lambda: b"abaqus: {command: abq, cpus: 2, licence_wait_s: 5}\n", load_settings,
            lambda s: s.cpus >= 1 and s.licence_wait_s >= 0),
