@@ -110,9 +110,9 @@ def take_step(
 
 @kernel()
 def cells_of(row: Integers, cells: int, first: int, last: int) -> tuple[int, int]:
-    """Return the cells a..b-1 that hold the nodes first..last-1 and a row more on either side."""
-    a = max(row[first] - 1, 0) // ROWS
-    b = min((row[last - 1] + 1) // ROWS + 1, cells)
+    """Return the cells a..b-1 that hold the nodes first..last-1; `widest` asks for more where that is not enough."""
+    a = row[first] // ROWS
+    b = min(row[last - 1] // ROWS + 1, cells)
     return a, b
 
 

@@ -109,7 +109,7 @@ def hold(operator: Singles, begin: int, end: int, scene: Scene, tempo: Tempo, st
         for i in range(begin, end):
             if state.code[i] == FREE:
                 state.force[i] = 0.0
-    _follow(scene.face.compliance, state.code, state.force, begin, end, work.q)
+    _follow(scene.face.compliance, state.code, state.force, begin, end, work.moved.ravel(), work.q)
     return sweeps
 
 
@@ -192,20 +192,47 @@ def _product(matrix: Singles, vector: Singles, out: Array) -> None:
         flat[i] = total
 
 
-@kernel(reorder=True)
-def _follow(compliance: Singles, code: Integers, force: Array, begin: int, end: int, q: Array) -> None:
+@kernel()
+def _follow(compliance: Singles, code: Integers, force: Array, begin: int, end: int, moved: Singles, q: Array) -> None:
     """Set q of every free node to what the forces on the nodes begin..end make of it."""
-    columns = slice(3 * begin, 3 * end)
-    load = force.ravel()[columns].astype(np.float32)
-    for i in range(q.shape[0]):
-        if code[i] != FREE:
-            continue
-        for c in range(3):
-            row = compliance[3 * i + c, columns]
-            total = np.float32(0.0)
-            for j in range(load.size):
-                total += row[j] * load[j]
-            q[i, c] = total
+    n = q.shape[0]
+    free = 0
+    for i in range(n):
+        if code[i] == FREE:
+            free += 1
+    if free == 0:
+        return
+    if n * (n - free) < free * (end - begin):  # the fewer numbers of the matrix are read, the faster
+        moved[:] = 0.0
+        for i in range(begin, end):
+            if code[i] != FREE:
+                _add_rows(compliance, i, force[i, 0], force[i, 1], force[i, 2], moved)
+        for i in range(n):
+            if code[i] == FREE:
+                for c in range(3):
+                    q[i, c] = moved[3 * i + c]
+    else:
+        load = force.ravel()[3 * begin : 3 * end].astype(np.float32)
+        for i in range(n):
+            if code[i] == FREE:
+                for c in range(3):
+                    q[i, c] = _dot(compliance[3 * i + c, 3 * begin : 3 * end], load)
+
+
+@kernel(reorder=True)
+def _add_rows(compliance: Singles, i: int, fx: float, fy: float, fz: float, moved: Singles) -> None:
+    sx, sy, sz = np.float32(fx), np.float32(fy), np.float32(fz)
+    r0, r1, r2 = compliance[3 * i], compliance[3 * i + 1], compliance[3 * i + 2]
+    for j in range(moved.size):
+        moved[j] += r0[j] * sx + r1[j] * sy + r2[j] * sz
+
+
+@kernel(reorder=True)
+def _dot(a: Singles, b: Singles) -> np.float32:
+    total = np.float32(0.0)
+    for j in range(b.size):
+        total += a[j] * b[j]
+    return total
 
 
 @kernel()
