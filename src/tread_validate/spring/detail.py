@@ -7,10 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import InputError
 from ..study import Case
 from . import element as columns
 from .block_pass import BlockPass, prepare
+from .condensed.face_pass import CondensedPass
+from .condensed.roll import FacePass
 from .creep import resolve_creep
+from .variants import pass_of
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -48,7 +52,7 @@ class ElementHistory:
 
 @dataclass(frozen=True)
 class FaceAtInstant:
-    """The contact face along the block at one instant; every array is (n,), one value an element.
+    """The contact face along the block at one instant, means over the width; every array is (n,), a value an element.
 
     Attributes
     ----------
@@ -57,12 +61,15 @@ class FaceAtInstant:
     contact_pressure, shear_traction : Pa
         The shear is that of the road on the block, positive towards the leading edge (-x), as T is.
     slips : bool
+    area : m2
+        Of the face, that the value stands for: pressure times area adds up to N.
     """
 
     place: Array
     contact_pressure: Array
     shear_traction: Array
     slips: Flags
+    area: Array
 
 
 def element_history(case: Case, s: float = 0.0, mass_factor: float = 1.0) -> ElementHistory:
@@ -85,9 +92,19 @@ def element_history(case: Case, s: float = 0.0, mass_factor: float = 1.0) -> Ele
     )
 
 
-def face_at(case: Case, time: float, mass_factor: float = 1.0) -> FaceAtInstant:
-    """Return pressure and shear along the block at one time (s from first contact) of a case of variant ``paper``."""
+def face_at(case: Case, time: float, mass_factor: float = 1.0, variant: str = "paper") -> FaceAtInstant:
+    """Return pressure and shear along the block at one time (s from first contact) of a case.
+
+    `mass_factor` is for the variant ``paper`` alone. Raises `InputError` for a variant that has no such face.
+    """
     block_pass, creep_ratio = _ready(case, mass_factor)
+    if variant != "paper":
+        made = pass_of(case.with_creep(creep_ratio), variant)
+        if isinstance(made, CondensedPass):
+            return _condensed(made.face(creep_ratio), time)
+        if not isinstance(made, BlockPass):
+            raise InputError("variant", variant, "one with springs or with a condensed face")
+        block_pass = made
     _, middles = block_pass.elements()
     values = np.zeros((middles.size, columns.COLUMNS))
     shared = block_pass.element(creep_ratio)[0] if block_pass.path.columns.are_equal else None
@@ -101,7 +118,33 @@ def face_at(case: Case, time: float, mass_factor: float = 1.0) -> FaceAtInstant:
         contact_pressure=values[:, columns.PRESSURE],
         shear_traction=-values[:, columns.SHEAR] + 0.0,
         slips=values[:, columns.SLIPPING] > 0.5,
+        area=np.full(middles.size, block_pass.path.profile.area / middles.size),
     )
+
+
+def _condensed(face: FacePass, time: float) -> FaceAtInstant:
+    """Return the means over the width of a condensed face, at stations an element apart.
+
+    A node's force and area go to the two stations beside it, in the proportion of their nearness: forces add up to
+    those of the block.
+    """
+    later = int(np.clip(np.searchsorted(face.time, time), 1, face.time.size - 1))
+    share = float(np.clip((time - face.time[later - 1]) / (face.time[later] - face.time[later - 1]), 0.0, 1.0))
+    force = face.copies * ((1.0 - share) * face.force[later - 1] + share * face.force[later])
+    slips = face.state[later if share > 0.5 else later - 1] == 2
+    distance = face.body.along.max() - face.body.along
+    across = face.body.face[:, 2]
+    steps = np.diff(np.sort(distance[np.isclose(across, across.min())]))
+    stations = 1 + round(float(np.ptp(distance) / steps.mean()))
+    place = np.linspace(0.0, float(np.ptp(distance)), stations)
+    left = np.clip(np.searchsorted(place, distance, side="right") - 1, 0, stations - 2)
+    weight = (distance - place[left]) / (place[1] - place[0])
+    values = np.column_stack([force[:, 1], -force[:, 0], face.copies * face.body.area, slips * face.body.area])
+    summed = np.zeros((stations, 4))
+    np.add.at(summed, left, (1.0 - weight)[:, None] * values)
+    np.add.at(summed, left + 1, weight[:, None] * values)
+    area = summed[:, 2]
+    return FaceAtInstant(place, summed[:, 0] / area, summed[:, 1] / area, face.copies * summed[:, 3] > 0.5 * area, area)
 
 
 def _ready(case: Case, mass_factor: float) -> tuple[BlockPass, float]:

@@ -115,6 +115,20 @@ def test_elements_add_up_to_the_block(cases: dict[str, Case]) -> None:
         assert face.shear_traction.mean() * 5e-4 == pytest.approx(shear, abs=1e-3 * history.normal_force.max())
 
 
+@pytest.mark.parametrize("variant", ["shape_factor", "condensed"])
+@pytest.mark.parametrize("case", [RIG, BELT])
+def test_face_of_every_variant_adds_up_to_the_block(cases: dict[str, Case], case: str, variant: str) -> None:
+    """Pressure times area at one instant is N, shear times area T: 1e-3 of the peak N."""
+    history = run(cases[case], variant)
+    peak = history.normal_force.max()
+    instant = 0.45 * float(history.time[-1])
+    face = face_at(cases[case], instant, variant=variant)
+    normal = np.interp(instant, history.time, history.normal_force)
+    assert face.contact_pressure @ face.area == pytest.approx(normal, abs=1e-3 * peak)
+    shear = np.interp(instant, history.time, history.tangential_force)
+    assert face.shear_traction @ face.area == pytest.approx(shear, abs=1e-3 * peak)
+
+
 def test_element_further_back_has_the_same_history_later(cases: dict[str, Case]) -> None:
     """The element at s lives s/V later: same forces, shifted clock; exact."""
     first, later = element_history(cases[BELT]), element_history(cases[BELT], 0.01)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -10,20 +11,16 @@ from matplotlib.axes import Axes
 from ...compare.baseline.histories import Histories
 from ...compare.baseline.movement import Movement
 from ...compare.thinned import Packed, thin, unpack
-from ...files import write_text
 from ...history import History
 from ...palette import Look
-from ...plotting import canvas, note, styled
 from ...units import IN_MS
 from .. import wording
 from ..cases import CaseView
 from ..content import Figure
 from ..histories import SAMPLES
-from ..marks import Marks, in_words
-from .numbers import numbers_text
-from .style import save_light
+from ..marks import Marks
+from .style import draw_pair
 
-SIZE = (9.4, 2.9)  # inches
 MOST = 3  # figures
 FORCES = (("n", "normal force N, N"), ("q", "longitudinal force T, N"))
 BEFORE = "#9aa3ab"
@@ -50,11 +47,9 @@ def before_after(
 ) -> Figure:
     """Draw the reference and one model, as accepted and as they are, normal and longitudinal force side by side."""
     sources = (item.reference_source, item.predicted_source)
-    own = marks.of(view.assumed)
     key = f"moved-{item.predicted_source}-{item.case_id}".replace(":", "-")
-    with styled():
-        figure = canvas(SIZE)
-        grid = figure.subplots(1, 2)
+
+    def paint(*grid: Axes) -> None:
         for axes, (series, label) in zip(grid, FORCES, strict=True):
             for source in sources:
                 before = accepted.get((source, item.case_id))
@@ -64,15 +59,11 @@ def before_after(
                     _now(axes, now[source], series, wording.source(source), looks[source])
             axes.axhline(0.0, color="#57606a", lw=0.7)
             axes.set(xlabel="time from first contact, ms", ylabel=label)
-        handles, labels = grid[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=2)
-        if own:
-            note(figure, in_words(own), low=True)
-        svg, data = folder / f"{key}.svg", folder / f"{key}.csv"
-        save_light(figure, svg)
-        write_text(data, numbers_text(grid))
+
     title = f"Before and after: {wording.source(item.predicted_source)}"
-    return Figure(key, title, _caption(item, view), svg, own, wide=True, data=data, case=item.case_id)
+    drawn = draw_pair(folder, key, title, _caption(item, view), paint, marks.of(view.assumed))
+    assert drawn.figure is not None
+    return replace(drawn.figure, case=item.case_id)
 
 
 def _before(axes: Axes, packed: Packed, series: str, name: str, reference: bool) -> None:

@@ -1,24 +1,31 @@
-"""Pressure and shear on the contact face in the middle of the pass: along the springs, and over the FE face."""
+"""Pressure and shear on the contact face in the middle of the pass: along every model, and over the FE face."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
+from scipy.interpolate import LinearNDInterpolator
 
 from ...geometry import path_of
-from ...palette import BLACK, BLUE, GREY, ORANGE, VERMILION
+from ...palette import VERMILION, Look
 from ...plotting import HEIGHT, WIDTH
-from ...spring import face_at
+from ...spring import FaceAtInstant, face_at
+from ...spring.variants import BUILT_IN
 from ...study import Case
 from ...units import IN_MS, MM, MPA
+from .. import wording
 from ..content import Mark
 from ..tables import read_table
-from .style import Drawn, draw
+from .style import Drawn, draw, draw_pair
 
+STATIONS = 121  # along the face, and across it
+FEWEST = 6  # stations across: at a sharp corner there are too few for a mean
 FACE_COLUMNS = ("x_m", "y_m", "z_m", "pressure_Pa", "traction_x_Pa", "traction_z_Pa", "state")
 
 
@@ -35,39 +42,55 @@ def read_face(file: Path) -> pd.DataFrame | None:
 
 
 def pressure(
-    folder: Path, case: Case, label: str, face: pd.DataFrame | None, engine: str, marks: tuple[Mark, ...]
+    folder: Path,
+    case: Case,
+    label: str,
+    face: pd.DataFrame | None,
+    engine: str,
+    looks: Mapping[str, Look],
+    marks: tuple[Mark, ...],
 ) -> Drawn:
-    """Draw contact pressure and shear traction along the block, by the spring model of the paper and by FE.
+    """Draw contact pressure and shear traction along the block, by every built-in model and by FE.
 
-    The FE face is drawn as the mean over the block's width, where its nodes stand in rows across.
+    Every line is a mean over the block's width. A model without a face of its own is left out.
     """
     instant = 0.5 * path_of(case).contact_duration
-    springs = face_at(case, instant)
-    place = springs.place / MM
+    models = {source: own for source in looks if (own := _face_of(case, instant, source)) is not None}
     rows = _means(face)
+    reference = next((looks[source] for source in looks if source.startswith("fe:")), None)
 
-    def paint(axes: Axes) -> None:
-        axes.plot(place, springs.contact_pressure / MPA, color=BLUE, label="pressure, springs")
-        axes.plot(place, springs.shear_traction / MPA, "--", color=VERMILION, label="shear, springs")
-        slips = springs.slips & (springs.contact_pressure > 0.0)
-        if slips.any():
-            axes.plot(place[slips], springs.shear_traction[slips] / MPA, "o", ms=3.5, color=ORANGE, label="slipping")
-        if rows is not None:
-            axes.plot(rows[0] / MM, rows[1] / MPA, color=BLACK, lw=1.0, label="pressure, FE")
-            axes.plot(rows[0] / MM, rows[2] / MPA, "--", color=GREY, lw=1.0, label="shear, FE")
-        axes.axhline(0.0, color="#57606a", lw=0.7)
-        axes.set(xlabel="distance from the end that makes contact first, mm", ylabel="traction, MPa")
-        axes.margins(y=0.2)
-        axes.legend(ncols=2, loc="upper right")
+    def paint(pressures: Axes, shears: Axes) -> None:
+        for source, own in models.items():
+            look, place = looks[source], own.place / MM
+            style: dict[str, Any] = {"color": look.color, "ls": look.line, "lw": 1.3, "label": wording.source(source)}
+            pressures.plot(place, own.contact_pressure / MPA, **style)
+            shears.plot(place, own.shear_traction / MPA, **style)
+            slips = own.slips & (own.contact_pressure > 0.0)
+            name = f"_{wording.source(source)}, slipping"
+            shears.plot(
+                place[slips], own.shear_traction[slips] / MPA, "o", ms=3, color=look.color, mfc="none", label=name
+            )
+        if rows is not None and reference is not None:
+            style = {"color": reference.color, "ls": reference.line, "lw": 1.3, "label": engine}
+            pressures.plot(rows[0] / MM, rows[1] / MPA, **style)
+            shears.plot(rows[0] / MM, rows[2] / MPA, **style)
+        for axes, name in ((pressures, "contact pressure, MPa"), (shears, "shear traction, MPa")):
+            axes.axhline(0.0, color="#57606a", lw=0.7)
+            axes.set(xlabel="distance from the end of first contact, mm", ylabel=name)
 
     caption = (
-        f"{label}, {IN_MS * instant:.2f} ms after first contact. Spring (paper): one value an element. "
-        + (f"{engine}: mean over the block's width. " if rows is not None else "")
-        + "Shear of the road on the block, positive towards the leading edge."
+        f"{label}, {IN_MS * instant:.2f} ms after first contact; means over the width. Shear of the road on the block, "
+        "positive towards the leading edge; rings: sliding."
     )
-    return draw(
+    return draw_pair(
         folder, f"pressure-{case.case_id}", "Traction on the contact face in mid-contact", caption, paint, marks
     )
+
+
+def _face_of(case: Case, instant: float, source: str) -> FaceAtInstant | None:
+    """Return the face of a built-in model; None of any other source."""
+    kind, _, variant = source.partition(":")
+    return face_at(case, instant, variant=variant) if kind == "spring" and variant in BUILT_IN else None
 
 
 def pressure_map(
@@ -99,18 +122,19 @@ def pressure_map(
 
 
 def _means(face: pd.DataFrame | None) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None:
-    """Return place, mean pressure and mean shear (positive towards the leading edge) of the rows across the face."""
+    """Return place, mean pressure and mean shear (positive towards the leading edge) of lines across the face.
+
+    The nodal values are interpolated linearly, so that the nodes need not stand in rows across.
+    """
     if face is None:
         return None
-    places, row, count = np.unique(
-        np.round(face["place_m"].to_numpy(dtype=float), 9), return_inverse=True, return_counts=True
-    )
-    if np.unique(count).size > 1 or count[0] < 2:
-        return None  # a parallelogram's nodes do not stand in rows across
-    found = []
-    for column, sign in (("pressure_Pa", 1.0), ("traction_x_Pa", -1.0)):
-        ordered = face.assign(row=row).sort_values(["row", "z_m"], kind="stable")
-        values = ordered[column].to_numpy(dtype=float).reshape(places.size, -1)
-        across = ordered["z_m"].to_numpy(dtype=float).reshape(places.size, -1)
-        found.append(sign * np.trapezoid(values, across, axis=1) / np.ptp(across, axis=1))
-    return places, found[0], found[1]
+    nodes = face[["place_m", "z_m"]].to_numpy(dtype=float)
+    values = face[["pressure_Pa", "traction_x_Pa"]].to_numpy(dtype=float) * np.array([1.0, -1.0])
+    places = np.linspace(nodes[:, 0].min(), nodes[:, 0].max(), STATIONS)
+    across = np.linspace(nodes[:, 1].min(), nodes[:, 1].max(), STATIONS)
+    grid = LinearNDInterpolator(nodes, values)(*np.meshgrid(places, across, indexing="ij"))
+    inside = np.isfinite(grid[:, :, 0])
+    share = np.maximum(inside.sum(axis=1), 1)[:, None]
+    means = np.where(inside[:, :, None], grid, 0.0).sum(axis=1) / share
+    seen = inside.sum(axis=1) > FEWEST
+    return places[seen], means[seen, 0], means[seen, 1]

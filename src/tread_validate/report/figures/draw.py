@@ -168,7 +168,7 @@ class Drawings:
         found: list[Drawn] = []
         for label, case in self._one_per_path().items():
             face, engine = self._face(case.case_id)
-            found.append(contact.pressure(self.folder, case, label, face, engine, self._of(case)))
+            found.append(contact.pressure(self.folder, case, label, face, engine, self.looks, self._of(case)))
             if face is not None:
                 found.append(contact.pressure_map(self.folder, case, label, face, engine, self._of(case)))
         return tuple(found)

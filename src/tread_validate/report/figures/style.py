@@ -10,12 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 
 from ...files import read_text, write_text
-from ...plotting import MARGINS, note, panel, save, styled
+from ...plotting import MARGINS, canvas, note, panel, save, styled
 from ..content import Figure, Figures, Item, Mark, Paragraph
 from ..marks import in_words
 from ..svg import lighter
 from .numbers import Numbers, numbers_text
 
+PAIR = (9.4, 2.9)  # inches: two panels over the page's width
 SIGNS_PER_INCH, HANDLE, LINE = 15.0, 8, 0.17  # of a legend: signs an inch, width of a handle in signs, inches a line
 
 
@@ -52,6 +53,30 @@ def draw(
         save_light(canvas, svg)
         write_text(data, numbers_text([axes], numbers))
     return Drawn(Figure(key, title, caption, svg, marks, wide, data))
+
+
+def draw_pair(
+    folder: Path,
+    key: str,
+    title: str,
+    caption: str,
+    paint: Callable[[Axes, Axes], None],
+    marks: tuple[Mark, ...] = (),
+    size: tuple[float, float] = PAIR,
+) -> Drawn:
+    """Paint two panels side by side with one legend above both; saved as `draw` does."""
+    with styled():
+        figure = canvas(size)
+        grid = figure.subplots(1, 2)
+        paint(*grid)
+        handles, labels = grid[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside upper left", ncols=4)
+        if marks:
+            note(figure, in_words(marks), low=True)
+        svg, data = folder / f"{key}.svg", folder / f"{key}.csv"
+        save_light(figure, svg)
+        write_text(data, numbers_text(grid))
+    return Drawn(Figure(key, title, caption, svg, marks, wide=True, data=data))
 
 
 def save_light(canvas: Canvas, file: Path) -> None:
