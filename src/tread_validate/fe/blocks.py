@@ -11,6 +11,7 @@ from ..errors import InputError
 from . import element_kernel as kernel
 from .element_full_kernel import POINTS
 from .gauss import CORNERS, gauss_points, highest_frequency_squared, mean_gradients
+from .hyperelastic import stiffened
 from .mesh import Mesh
 from .model import Model
 from .relaxation import Relaxation, relaxation_of
@@ -79,6 +80,11 @@ class Blocks:
         """Number of Prony recursions an element carries."""
         return max((spectrum.times.size for spectrum in self.spectra), default=0)
 
+    @property
+    def neo_hookean(self) -> NDArray[np.bool_]:
+        """Which elements follow the neo-Hookean law, (m,)."""
+        return np.array([spectrum.neo_hookean for spectrum in self.spectra])[self.kind_of_element]
+
     def frequency_squared(self, gradient_of_displacement: Floats | None = None) -> Floats:
         """Return a bound on the square of each element's highest angular frequency, (m,).
 
@@ -112,9 +118,10 @@ class Blocks:
         return np.asarray(np.trace(m, axis1=1, axis2=2), dtype=np.float64), largest
 
     def _frequency_squared(self, trace: Floats, largest: Floats, gradient_of_displacement: Floats | None) -> Floats:
-        lame = np.maximum(self.bulk - 2.0 / 3.0 * self.shear, 0.0)
-        bulk = 8.0 * (lame * trace + 2.0 * self.shear * largest) / self.density
-        found = np.maximum(bulk, self.hourglass / (self.density * self.volume))
+        shear, bulk = stiffened(self.shear, self.bulk, self.neo_hookean, gradient_of_displacement)
+        lame = np.maximum(bulk - 2.0 / 3.0 * shear, 0.0)
+        whole = 8.0 * (lame * trace + 2.0 * shear * largest) / self.density
+        found = np.maximum(whole, self.hourglass / (self.density * self.volume))
         if self.full.size:
             volume, gradients = self.point_volume, self.point_gradients
             if gradient_of_displacement is not None:
@@ -122,9 +129,7 @@ class Blocks:
                 volume = volume * np.linalg.det(f)[:, None]
                 gradients = np.linalg.solve(np.swapaxes(f, 1, 2)[:, None], gradients).astype(np.float64)
             own = self.full
-            found[own] = highest_frequency_squared(
-                volume, gradients, self.shear[own], self.bulk[own], self.density[own]
-            )
+            found[own] = highest_frequency_squared(volume, gradients, shear[own], bulk[own], self.density[own])
         return np.asarray(found, dtype=np.float64)
 
 

@@ -30,10 +30,11 @@ from .element_kernel import (
     STATE_VISCOUS,
     STATE_WORK,
 )
+from .hyperelastic_kernel import cauchy_and_strain, stress_for_strain
 
-# Rows of the working set: displacements (24), F (9), R (9), each point's own adjugate, J and mean stress (12), strain
-# increment (6), hereditary strain (6), mean J (7), Piola-Kirchhoff stress (9), then copies of geometry and state.
-_U, _F, _R, _Q, _D, _S, _I, _P, _G = 0, 24, 33, 42, 54, 60, 66, 73, 82
+# Rows of the working set: displacements (24), F (9), R (9), the point's own J U^-1 and J and the mean stress (8),
+# strain increment (6), hereditary strain (6), J_bar (1), Piola-Kirchhoff stress (9), then copies of geometry and state.
+_U, _F, _R, _Q, _D, _S, _J, _P, _G = 0, 24, 33, 42, 50, 56, 62, 63, 72
 _T = _G + GEO_ROWS
 FULL_WORK_ROWS = _T + STATE_ROWS
 POINTS = 8
@@ -179,7 +180,7 @@ def _own_stretches(w):  # type: ignore[no-untyped-def]
 
 @kernel(fastmath=FAST, boundscheck=False)
 def _mean_dilatation(w):  # type: ignore[no-untyped-def]
-    """Write J_bar into `_I` + 6, stretch `_D` to it; return the least of the points' own J."""
+    """Write J_bar into `_J`, stretch `_D` to it; return the least of the points' own J."""
     n = LANES
     worst = 1e30
     for first in range(0, n, POINTS):
@@ -191,7 +192,7 @@ def _mean_dilatation(w):  # type: ignore[no-untyped-def]
             filled += w[(_G + GEO_VOLUME) * n + i] * w[(_Q + 6) * n + i]
         mean = filled / volume if volume > 0.0 else 1.0
         for i in range(first, first + POINTS):
-            w[(_I + 6) * n + i] = mean
+            w[_J * n + i] = mean
             scale = (mean / w[(_Q + 6) * n + i]) ** (1.0 / 3.0)
             for row in range(6):
                 w[(_D + row) * n + i] *= scale
@@ -242,6 +243,10 @@ def _relax(b, dt, hist, decay, gain, elastic, k, w):  # type: ignore[no-untyped-
     """Long-term strain, damping and the Prony terms into `_S`: rows 0-4 deviator, row 5 volume."""
     n = LANES
     damp = elastic[k, 4] / dt
+    jacobian, increment, kept = w[_J * n : (_J + 1) * n], w[_D * n : (_D + 6) * n], w[_P * n : (_P + 6) * n]
+    if elastic[k, 5] > 0.0:
+        stretch, total = w[(_T + STATE_U) * n : (_T + STATE_U + 6) * n], w[(_T + STATE_STRAIN) * n :]
+        stress_for_strain(stretch, jacobian, total, increment, kept)
     for c in range(6):
         ratio = elastic[k, 2] if c < 5 else elastic[k, 3]
         for i in range(n):
@@ -256,6 +261,8 @@ def _relax(b, dt, hist, decay, gain, elastic, k, w):  # type: ignore[no-untyped-
                 q = fade * hist[b, t, c, i] + grow * w[(_D + c) * n + i]
                 hist[b, t, c, i] = q
                 w[(_S + c) * n + i] += q
+    if elastic[k, 5] > 0.0:
+        cauchy_and_strain(damp, jacobian, w[_S * n : (_S + 6) * n], increment, kept)
 
 
 @kernel(fastmath=FAST, boundscheck=False)
@@ -274,14 +281,14 @@ def _stresses(dt, shear, bulk, w):  # type: ignore[no-untyped-def]
             own = w[(_G + GEO_VOLUME) * n + i]
             volume += own
             total += own * (bulk * w[(_S + 5) * n + i] + viscous)
-            now = w[(_I + 6) * n + i] * viscous
+            now = w[_J * n + i] * viscous
             w[(_T + STATE_BULK) * n + i] += 0.5 * own * (w[(_T + STATE_VISCOUS) * n + i] + now) * w[(_D + 5) * n + i]
             w[(_T + STATE_VISCOUS) * n + i] = now
         mean = total / volume if volume > 0.0 else 0.0
         for i in range(first, first + POINTS):
             w[(_Q + 7) * n + i] = mean
     for i in range(n):
-        jacobian = w[(_I + 6) * n + i]
+        jacobian = w[_J * n + i]
         d0 = shear * w[_S * n + i]
         d1 = shear * w[(_S + 1) * n + i]
         d2 = -d0 - d1

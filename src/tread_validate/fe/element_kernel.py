@@ -13,6 +13,7 @@ linear over the step, forces from the first Piola-Kirchhoff stress.
 from __future__ import annotations
 
 from ..kernels import kernel
+from .hyperelastic_kernel import cauchy_and_strain, stress_for_strain
 
 LANES = 16
 FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}
@@ -46,8 +47,8 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
     geo, state : (blocks, rows, LANES)
     hist : (blocks, terms, 6, LANES) Prony histories of strain
     decay : (kinds, terms); gain : (kinds, terms, 2) for the deviator and the volume
-    elastic : (kinds, 5): twice the shear modulus, bulk modulus (both instantaneous), long-term ratios of each, and the
-        time by which the strain rate adds to the strain (stiffness-proportional damping)
+    elastic : (kinds, 6): twice the shear modulus, bulk modulus (both instantaneous), long-term ratios of each, the time
+        by which the strain rate adds to the strain (stiffness-proportional damping), and 1 for the neo-Hookean law
     kind : (blocks,) int32, row of the material tables
     out : (blocks, 24, LANES) internal forces, rows 3 a + component
     work : (WORK_ROWS * LANES,) working set
@@ -268,6 +269,11 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
         for t in range(terms):
             same = same and gain[k, t, 0] == gain[k, t, 1]
         damp = elastic[k, 4] / dt
+        if elastic[k, 5] > 0.0:
+            stress_for_strain(
+                kept[STATE_U * n : (STATE_U + 6) * n], w[(_I + 6) * n : (_I + 7) * n],
+                kept[STATE_STRAIN * n : (STATE_STRAIN + 6) * n], w[_D * n : (_D + 6) * n], w[_P * n : (_P + 6) * n],
+            )  # fmt: skip
         for c in range(6):
             ratio = elastic[k, 2] if c < 5 else elastic[k, 3]
             for i in range(n):
@@ -307,6 +313,11 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 own[5 * n + i] = q
                 w[(_S + 5) * n + i] += q
             t += 1
+        if elastic[k, 5] > 0.0:
+            cauchy_and_strain(
+                damp, w[(_I + 6) * n : (_I + 7) * n], w[_S * n : (_S + 6) * n], w[_D * n : (_D + 6) * n],
+                w[_P * n : (_P + 6) * n],
+            )  # fmt: skip
         # stress in the rotated frame, bulk viscosity, first Piola-Kirchhoff stress times volume
         shear = elastic[k, 0]
         bulk = elastic[k, 1]

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..kernels import kernel
 from .element_kernel import GEO_G, GEO_HOURGLASS, GEO_VOLUME, LANES, STATE_BULK, STATE_STRAIN, STATE_U, STATE_WORK
+from .hyperelastic_kernel import long_term_energy
 
 COLUMNS = (
     "time_s",
@@ -29,7 +30,8 @@ def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]
     """Return recoverable energy, work of the stress, hourglass energy and bulk viscous work of all elements.
 
     A term of weight g holds q = g e for its spring's strain e: it stores (2 G |dev q|^2 + K tr q^2)/(2 g), per
-    reference volume. The work of the stress is summed by `block_forces`; what of it is not stored has been dissipated.
+    reference volume. Of the neo-Hookean law that is exact for what does not relax, and the quadratic form of the terms'
+    stresses for the rest. The work of the stress is summed by `block_forces`; what is not stored has been dissipated.
 
     Parameters
     ----------
@@ -58,7 +60,12 @@ def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]
             d2, d3, d4 = elements.state[b, e + 2, i], elements.state[b, e + 3, i], elements.state[b, e + 4, i]
             theta = elements.state[b, e + 5, i]
             shape = d0 * d0 + d1 * d1 + (d0 + d1) ** 2 + 2.0 * (d2 * d2 + d3 * d3 + d4 * d4)
-            own = 0.5 * (two_g * elements.elastic[k, 2] * shape + bulk * elements.elastic[k, 3] * theta * theta)
+            shear_left, bulk_left = two_g * elements.elastic[k, 2], bulk * elements.elastic[k, 3]
+            own = 0.5 * (shear_left * shape + bulk_left * theta * theta)
+            if elements.elastic[k, 5] > 0.0:
+                s = elements.state
+                own = long_term_energy(s[b, 0, i], s[b, 1, i], s[b, 2, i], s[b, 3, i], s[b, 4, i], s[b, 5, i],
+                                       shear_left, bulk_left)  # fmt: skip
             stored += volume * own
             for t in range(terms):
                 if weights[k, t, 0] > 0.0:

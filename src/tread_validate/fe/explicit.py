@@ -110,7 +110,7 @@ class Simulation:
     def _elements(self) -> Elements:
         b = self.blocks
         kinds = len(b.spectra)
-        elastic = np.array([[2.0 * s.shear, s.bulk, s.long_term[0], s.long_term[1], s.damping] for s in b.spectra])
+        elastic = np.array([[2.0 * s.shear, s.bulk, *s.long_term, s.damping, float(s.neo_hookean)] for s in b.spectra])
         self.weights = np.zeros((kinds, b.terms, 2))
         self.times = np.ones((kinds, b.terms))
         for row, spectrum in enumerate(b.spectra):

@@ -17,11 +17,13 @@ Floats = NDArray[np.float64]
 
 @dataclass
 class Material:
-    """A linear (visco)elastic material, in deck units.
+    """A (visco)elastic material, linear or neo-Hookean, in deck units.
 
     Attributes
     ----------
     density, youngs_modulus, poissons_ratio : float
+        Of the neo-Hookean law: at no strain.
+    neo_hookean : bool
     instantaneous : bool
         Whether the modulus given is the instantaneous one (else the long-term one).
     prony : (k, 3)
@@ -40,6 +42,7 @@ class Material:
     prony: Floats = field(default_factory=lambda: np.zeros((0, 3)))
     trs: tuple[float, float, float] | None = None
     damping: float = 0.0
+    neo_hookean: bool = False
 
     def shear_and_bulk(self) -> tuple[float, float]:
         """Return the instantaneous shear and bulk modulus."""
@@ -84,7 +87,7 @@ class Section:
 
 
 def read_materials(blocks: list[KeywordBlock]) -> dict[str, Material]:
-    """Read every material with its DENSITY, ELASTIC, VISCOELASTIC, TRS and DAMPING."""
+    """Read every material with its DENSITY, ELASTIC or HYPERELASTIC, VISCOELASTIC, TRS and DAMPING."""
     materials: dict[str, Material] = {}
     current: Material | None = None
     for block in blocks:
@@ -93,7 +96,7 @@ def read_materials(blocks: list[KeywordBlock]) -> dict[str, Material]:
             if name in materials:
                 raise InputError(block.where, f"material {name} twice", "each material once")
             current = materials[name] = Material(name, block.where)
-        elif block.keyword in ("DENSITY", "ELASTIC", "VISCOELASTIC", "TRS", "DAMPING"):
+        elif block.keyword in ("DENSITY", "ELASTIC", "HYPERELASTIC", "VISCOELASTIC", "TRS", "DAMPING"):
             if current is None:
                 raise InputError(block.where, f"*{block.keyword} before any *MATERIAL", "*MATERIAL first")
             _property(block, current)
@@ -124,6 +127,12 @@ def _factor(block: KeywordBlock, name: str) -> float:
 def _property(block: KeywordBlock, material: Material) -> None:
     if block.keyword == "DENSITY":
         material.density = _only(block, 1).number_at(0, "a density")
+    elif block.keyword in ("ELASTIC", "HYPERELASTIC") and material.youngs_modulus:
+        raise InputError(
+            block.where, f"a second elasticity of material {material.name}", "*ELASTIC or *HYPERELASTIC, once"
+        )
+    elif block.keyword == "HYPERELASTIC":
+        _neo_hookean(block, material)
     elif block.keyword == "ELASTIC":
         line = _only(block, 2)
         material.youngs_modulus = line.number_at(0, "Young's modulus")
@@ -150,9 +159,23 @@ def _property(block: KeywordBlock, material: Material) -> None:
         material.trs = (line.number_at(0, "theta0"), line.number_at(1, "C1"), line.number_at(2, "C2"))
 
 
+def _neo_hookean(block: KeywordBlock, material: Material) -> None:
+    """Read C10, D1: shear modulus 2 C10 and bulk modulus 2/D1 at no strain."""
+    line = _only(block, 2)
+    c10, d1 = line.number_at(0, "C10"), line.number_at(1, "D1", 0.0)
+    shear, bulk = 2.0 * c10, 2.0 / d1 if d1 > 0.0 else 0.0
+    if not c10 > 0.0 or not d1 > 0.0 or not 3.0 * bulk > 2.0 * shear:
+        expected = "C10 > 0 and D1 > 0 (ABAQUS/Explicit takes K = 20 G for D1 = 0: write it), Poisson's ratio > 0"
+        raise InputError(line.where, line.text, expected)
+    material.neo_hookean = True
+    material.youngs_modulus = 9.0 * bulk * shear / (3.0 * bulk + shear)
+    material.poissons_ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+    material.instantaneous = block.parameters.get("MODULI") == "INSTANTANEOUS"
+
+
 def _complete(material: Material) -> None:
     if not material.density > 0 or not material.youngs_modulus > 0:
-        missing = "*ELASTIC" if material.density > 0 else "*DENSITY"
+        missing = "*ELASTIC or *HYPERELASTIC" if material.density > 0 else "*DENSITY"
         raise InputError(material.where, f"material {material.name} without {missing}", "density and elasticity")
     for column, name in ((0, "g"), (1, "k")):
         total = float(material.prony[:, column].sum())

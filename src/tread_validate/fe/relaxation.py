@@ -37,6 +37,8 @@ class Relaxation:
         Relaxation times at this temperature.
     damping : float
         Stiffness-proportional damping, s.
+    neo_hookean : bool
+        Whether stress follows from the neo-Hookean law, else from strain linearly.
     """
 
     shear: float
@@ -45,6 +47,7 @@ class Relaxation:
     weights: Floats
     times: Floats
     damping: float = 0.0
+    neo_hookean: bool = False
 
     def modulus(self, time: Floats) -> Floats:
         """Return the normalised shear relaxation modulus at `time`, shape of `time`."""
@@ -73,7 +76,7 @@ def relaxation_of(material: Material, temperature: float, duration: float) -> Re
     long_term = 1.0 - weights.sum(axis=0)
     if times.size and np.array_equal(weights[:, 0], weights[:, 1]):
         weights, times, long_term = _merge_slow(weights[:, 0], times, float(long_term[0]), duration)
-    return Relaxation(shear, bulk, long_term, weights, times, material.damping)
+    return Relaxation(shear, bulk, long_term, weights, times, material.damping, material.neo_hookean)
 
 
 def _merge_slow(weights: Floats, times: Floats, long_term: float, duration: float) -> tuple[Floats, Floats, Floats]:

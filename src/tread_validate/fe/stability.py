@@ -19,6 +19,7 @@ from ..kernels import kernel
 from .blocks import Blocks
 from .element_full_kernel import POINTS
 from .gauss import mean_of_points
+from .hyperelastic import stiffened
 
 Floats = NDArray[np.float64]
 FIRST_STEPS = 80
@@ -162,6 +163,8 @@ class StableIncrement:
         self.connectivity = np.concatenate([b.connectivity[one], b.connectivity[points]])
         self.gradients = np.concatenate([b.gradients[one], b.point_gradients.reshape(-1, 3, 8)])
         self.volume = np.concatenate([b.volume[one], b.point_volume.ravel()])
+        self.moduli = shear.copy(), bulk  # the rows' own are overwritten as the mesh deforms
+        self.neo_hookean = np.concatenate([b.neo_hookean[one], b.neo_hookean[points], b.neo_hookean[b.full]])
         self.stiffness = Stiffness(
             np.concatenate([self.connectivity, b.connectivity[b.full]]),
             np.zeros((shear.size, 3, 8)),
@@ -181,6 +184,12 @@ class StableIncrement:
             volume[own:], gradients[own:] = mean_of_points(
                 volume[at:own].reshape(-1, POINTS), gradients[at:own].reshape(-1, POINTS, 3, 8)
             )
+        if self.neo_hookean.any():
+            rows = np.concatenate([self.gradients, self.blocks.gradients[self.blocks.full]])
+            moved = np.einsum("nac,nja->ncj", displacement[self.stiffness.connectivity], rows)
+            shear, bulk = stiffened(*self.moduli, self.neo_hookean, moved)
+            self.stiffness.shear[:] = shear
+            self.stiffness.lame[:] = bulk - 2.0 / 3.0 * shear
 
     def frequency_squared(self, displacement: Floats) -> float:
         """Return the square of the highest angular frequency at a displacement (n, 3), hourglass stiffness included."""

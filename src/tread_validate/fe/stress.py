@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import polar
 
-from .element_kernel import GEO_G, GEO_VOLUME, LANES, STATE_STRAIN
+from .element_kernel import GEO_G, GEO_VOLUME, LANES, STATE_STRAIN, STATE_U
 
 if TYPE_CHECKING:
     from .explicit import Simulation
@@ -24,12 +24,20 @@ def deformation_gradients(simulation: Simulation) -> Floats:
     return np.asarray(np.eye(3) + np.einsum("nac,nja->ncj", u, b), dtype=np.float64)
 
 
+def volume_ratios(state: Floats) -> Floats:
+    """Return J of every lane, from its stretch: (lanes,)."""
+    u0, u1, u2, u3, u4, u5 = state[:, STATE_U : STATE_U + 6].transpose(1, 0, 2).reshape(6, -1)
+    return np.asarray(u0 * (u1 * u2 - u5 * u5) + u3 * (u4 * u5 - u3 * u2) + u4 * (u3 * u5 - u1 * u4), dtype=np.float64)
+
+
 def lane_stress(simulation: Simulation) -> Floats:
     """Return the Cauchy stress of every lane in the global axes, bulk viscosity left out: (lanes, 3, 3)."""
     e = simulation.elements
     ratio = np.where(np.arange(6) < 5, e.elastic[e.kind, 2:3], e.elastic[e.kind, 3:4])
     hereditary = ratio[:, :, None] * e.state[:, STATE_STRAIN : STATE_STRAIN + 6] + e.hist.sum(axis=1)
     rows = np.moveaxis(hereditary, -1, 1).reshape(-1, 6)
+    kirchhoff = np.repeat(e.elastic[e.kind, 5] > 0.0, LANES)
+    rows[kirchhoff] /= volume_ratios(e.state)[kirchhoff, None]
     shear, bulk = (np.repeat(e.elastic[e.kind, column], LANES) for column in (0, 1))
     tensor = np.zeros((rows.shape[0], 3, 3))
     for i, row in ((0, rows[:, 0]), (1, rows[:, 1]), (2, -rows[:, 0] - rows[:, 1])):

@@ -46,6 +46,7 @@ SUBSET: dict[str, Keyword] = {
     "MATERIAL": Keyword("model", {"NAME": ANY}, ("NAME",)),
     "DENSITY": Keyword("model", {}),
     "ELASTIC": Keyword("model", {"TYPE": ("ISOTROPIC",), "MODULI": ("INSTANTANEOUS", "LONG TERM")}),
+    "HYPERELASTIC": Keyword("model", {"NEO HOOKE": ANY, "MODULI": ("INSTANTANEOUS", "LONG TERM")}, ("NEO HOOKE",)),
     "VISCOELASTIC": Keyword("model", {"TIME": ("PRONY",)}, ("TIME",)),
     "TRS": Keyword("model", {"DEFINITION": ("WLF",)}),
     "DAMPING": Keyword("model", {"BETA": ANY}, ("BETA",)),
