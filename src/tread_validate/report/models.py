@@ -174,6 +174,11 @@ def _criterion(name: str, rows: list[Ensemble]) -> str:
 
 
 def judged(row: MetricRow) -> str:
-    """Write tolerance and uncertainty of one comparison."""
-    tolerance = wording.size(row.tolerance, row.error_type, row.unit)
-    return f"tolerance {tolerance}, U {wording.size(row.uncertainty, row.error_type, row.unit)}"
+    """Write tolerance and uncertainty of one comparison, with the three standard uncertainties behind it."""
+    tolerance, spread = (wording.size(value, row.error_type, row.unit) for value in (row.tolerance, row.uncertainty))
+    parts = (("mesh", row.u_numerical), ("inputs", row.u_input), ("data", row.u_data))
+    told = ", ".join(
+        f"{name} {'unknown' if value is None else wording.size(value, row.error_type, row.unit)}"
+        for name, value in parts
+    )
+    return f"tolerance {tolerance}, U {spread} (u: {told})"

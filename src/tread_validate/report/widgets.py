@@ -126,7 +126,7 @@ def _case_error(row: MetricRow, why: str, alike: set[str]) -> dict[str, str]:
         "b": wording.digits(row.predicted, 4),
         "e": wording.error(row.error, row.error_type, metric=row.metric),
         "v": "–" if open_ else wording.assessment(row.assessment),
-        "u": "" if open_ or row.uncertainty is None else judged(row),
+        "u": "" if row.error is None or (row.uncertainty is None and row.u_data is None) else judged(row),
         "tone": "" if open_ else wording.TONES.get(row.assessment, ""),
         "note": "; ".join(part for part in row.note.split("; ") if part not in alike),
         "why": why,
