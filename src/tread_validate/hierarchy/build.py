@@ -9,13 +9,26 @@ from typing import Any
 
 from ..compare.quantities import tolerances
 from ..compare.runs import fe_runs
-from ..compare.tables import write_table
+from ..compare.tables import Row, write_rows
 from ..errors import InputError
 from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt
 from ..study.typical import path_and_block, path_kind, typical_cases
 from . import compatibility, compounds, effects, fe_meshes, figures, pareto, published, sensitivity
 from .own_models import own_rows
+from .tables import (
+    CombinationRow,
+    Compatibility,
+    CompoundDependence,
+    CompoundError,
+    Effect,
+    FeMesh,
+    Level,
+    LevelError,
+    PublishedFigure,
+    SobolIndex,
+    Stiffness,
+)  # fmt: skip
 
 Table = list[dict[str, Any]]
 Say = Callable[[str], None]
@@ -50,9 +63,9 @@ def build(
     drawn = folders.output / "figures"
     tables: dict[str, Table] = {}
 
-    def put(name: str, columns: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
-        tables[name] = list(rows)
-        write_table(folders.output / f"{name}.csv", columns, tables[name])
+    def put(kind: type[Row], rows: Iterable[dict[str, Any]]) -> None:
+        tables[kind.table] = list(rows)
+        write_rows(folders.output, kind, [kind(**row) for row in tables[kind.table]])
 
     judged = tolerances(study.model.tolerances, study.source)
     if "pareto" in parts:
@@ -60,40 +73,40 @@ def build(
         held = pareto.case_rows(cases, references, engine, judged=judged)
         if folders.models is not None:
             held += own_rows(study, cases, references, folders.models, judged)
-        put("errors", pareto.CASE_COLUMNS, held)
-        put("pareto", pareto.COLUMNS, pareto.pareto_rows(tables["errors"], cases))
-        put("fe_meshes", fe_meshes.MESH_COLUMNS, fe_meshes.mesh_rows(folders.references, engine))
+        put(LevelError, held)
+        put(Level, pareto.pareto_rows(tables["errors"], cases))
+        put(FeMesh, fe_meshes.mesh_rows(folders.references, engine))
         figures.pareto_figure(tables["pareto"], tables["fe_meshes"], drawn / "pareto")
     if "effects" in parts:
         say("what each effect is worth")
-        put("effects", effects.COLUMNS, effects.effect_rows(chosen))
+        put(Effect, effects.effect_rows(chosen))
         theory = []
         for case in chosen:
             try:
                 theory += effects.theory_rows(case)
             except InputError as error:
                 say(f"no stiffness by theory for {case.case_id}: {error}")
-        put("stiffness", effects.THEORY_COLUMNS, theory)
+        put(Stiffness, theory)
     if "published" in parts:
         say("published figures")
-        put("published", published.COLUMNS, published.published_rows(cases, references, engine, pareto.LEVELS))
+        put(PublishedFigure, published.published_rows(cases, references, engine, pareto.LEVELS))
         belts = [case for case in chosen if isinstance(case.path, SimplifiedBelt)]
         levels = ("paper", "shape_factor", "condensed_coarse")
-        put("combinations", published.COMBINATION_COLUMNS,
+        put(CombinationRow,
             [row for case in belts for row in published.combination_rows(case, levels)])  # fmt: skip
     if "compounds" in parts:
         say("other compounds")
         by_compound, dependence = compounds.compound_tables(spread(cases), study.root, judged)
-        put("compounds", compounds.COLUMNS, by_compound)
-        put("compound_dependence", compounds.DEPENDENCE_COLUMNS, dependence)
+        put(CompoundError, by_compound)
+        put(CompoundDependence, dependence)
         figures.compounds_figure(by_compound, drawn / "compounds")
     if "compatibility" in parts:
         say("rate and temperature")
-        put("compatibility", compatibility.COLUMNS, compatibility.compatibility_rows(cases))
+        put(Compatibility, compatibility.compatibility_rows(cases))
         figures.compatibility_figure(tables["compatibility"], drawn / "compatibility")
     if "sobol" in parts:
         say("Sobol indices")
-        put("sobol", sensitivity.COLUMNS, [row for case in chosen for row in sensitivity.sobol_rows(case, samples)])
+        put(SobolIndex, [row for case in chosen for row in sensitivity.sobol_rows(case, samples)])
         figures.sobol_figure(tables["sobol"], drawn / "sobol")
     return tables
 

@@ -13,6 +13,7 @@ from ..material import prony_series, relative_shift
 from ..study import Case
 from ..units import PERCENT
 from .rate_response import Coefficients, RigTable, rig_table
+from .tables import Compatibility
 
 Array = NDArray[np.float64]
 
@@ -24,16 +25,11 @@ TIMES = np.geomspace(1e-8, 1e3, 45)
 """Relaxation times of the search at the data's temperature, s: four a decade."""
 STARTS = 8
 
-COLUMNS = (
-    "family", "what", "a_v_percent_s_per_m", "a_v_sd_percent_s_per_m", "a_theta_percent_per_degC", "parameter",
-    "value", "meets_a_v", "meets_a_theta", "meets_spread", "note",
-)  # fmt: skip
-
 
 def compatibility_rows(cases: Sequence[Case], seed: int = 2010) -> list[dict[str, Any]]:
     """Return the published pair, power laws, the study's compound, bell spectra and a search over all spectra.
 
-    `cases` are a study's; the rectangular rig runs among them are used. The rows' columns are `COLUMNS`.
+    `cases` are a study's; the rectangular rig runs among them are used. The rows' columns are those of `Compatibility`.
     """
     rig = [case for case in cases if case.is_rig and case.block.shape == "rectangle"]
     if not rig:
@@ -71,7 +67,7 @@ def _row(
         None if spread is None else spread <= A_V_SD + 1e-12,
     )
     percent = (pair[0] / PERCENT, None if spread is None else spread / PERCENT, pair[1] / PERCENT)
-    return dict(zip(COLUMNS, (family, what, *percent, parameter, value, *meets, note), strict=True))
+    return dict(zip(Compatibility.header(), (family, what, *percent, parameter, value, *meets, note), strict=True))
 
 
 def _power_laws(speeds: Array, decades: float, span: float) -> list[dict[str, Any]]:

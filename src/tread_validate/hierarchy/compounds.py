@@ -34,14 +34,6 @@ QUANTITIES = (
     ("tangential_force", "iso18571_r"),
 )
 
-COLUMNS = (
-    "compound", "origin", "group", "quantity", "metric", "cases", "storage_modulus_MPa", "loss_factor", "unit",
-    "error_type", "mean_error", "least_error", "largest_error", "passed", "criterion", "assumed",
-)  # fmt: skip
-DEPENDENCE_COLUMNS = (
-    "group", "quantity", "metric", "unit", "error_type", "compounds", "own_mean_error", "least_mean_error",
-    "largest_mean_error", "own_passed", "cases", "least_passed", "largest_passed", "cases_that_change", "depends",
-)  # fmt: skip
 
 Table = list[dict[str, Any]]
 
@@ -49,8 +41,8 @@ Table = list[dict[str, Any]]
 def compound_tables(cases: Sequence[Case], root: Path, judged: Tolerances) -> tuple[Table, Table]:
     """Return the errors of the paper's springs by compound, and how far they depend on it.
 
-    `cases` have a creep ratio; `root` is the study's, with the compounds of the library below it. Columns are `COLUMNS`
-    and `DEPENDENCE_COLUMNS`.
+    `cases` have a creep ratio; `root` is the study's, with the compounds of the library below it. Columns are those
+    of `CompoundError` and `CompoundDependence`.
     """
     found: dict[str, list[tuple[Case, dict[tuple[str, str], MetricRow]]]] = {}
     for case in cases:

@@ -21,13 +21,9 @@ from ..spring.condensed.roll import CondensedSettings, roll
 from ..spring.shape_factor import ratios, stiffened
 from ..spring.stiffness import gent_lindley, pressure_theory, shear_theory
 from ..study import Case
+from .tables import Effect, Stiffness
 
 Array = NDArray[np.float64]
-
-COLUMNS = (
-    "case_id", "effect", "from", "to", "peak_normal_force_percent", "normal_impulse_percent",
-    "peak_positive_tangential_force_N", "peak_negative_tangential_force_N", "peak_normal_force_N", "assumed",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -74,7 +70,7 @@ def elastic(case: Case) -> PronySeries:
 
 
 def effect_rows(cases: Sequence[Case], only: Sequence[str] = ()) -> list[dict[str, Any]]:
-    """Return the effects (or those named) on each case, creep ratios known; the rows' columns are `COLUMNS`."""
+    """Return the effects (or those named) on each case, creep ratios known; the rows' columns are those of `Effect`."""
     rows: list[dict[str, Any]] = []
     for case in cases:
         for effect, before, after, change in _effects(case):
@@ -86,17 +82,17 @@ def effect_rows(cases: Sequence[Case], only: Sequence[str] = ()) -> list[dict[st
                 told = {
                     "case_id": case.case_id,
                     "effect": effect,
-                    "from": before,
-                    "to": f"{after}: {one_line(str(error))}",
+                    "before": before,
+                    "after": f"{after}: {one_line(str(error))}",
                 }
-                rows.append({**dict.fromkeys(COLUMNS), **told, "assumed": "; ".join(case.assumed())})
+                rows.append({**dict.fromkeys(Effect.header()), **told, "assumed": "; ".join(case.assumed())})
                 continue
             entries = (
                 case.case_id, effect, before, after, 100.0 * (second.normal / first.normal - 1.0),
                 100.0 * (second.impulse / first.impulse - 1.0), second.positive - first.positive,
                 second.negative - first.negative, second.normal, "; ".join(case.assumed()),
             )  # fmt: skip
-            rows.append(dict(zip(COLUMNS, entries, strict=True)))
+            rows.append(dict(zip(Effect.header(), entries, strict=True)))
     return rows
 
 
@@ -189,7 +185,4 @@ def theory_rows(case: Case) -> list[dict[str, Any]]:
         ("rocking, face stuck", found.rocking, pressure_theory(block, nu, rocking=True), None),
     ]  # fmt: skip
     rows.append(("shear", found.shear, shear_theory(block, nu), None))
-    return [dict(zip(THEORY_COLUMNS, (case.case_id, *row, "; ".join(case.assumed())), strict=True)) for row in rows]
-
-
-THEORY_COLUMNS = ("case_id", "stiffness", "static_solve", "theory", "gent_lindley", "assumed")
+    return [dict(zip(Stiffness.header(), (case.case_id, *row, "; ".join(case.assumed())), strict=True)) for row in rows]

@@ -6,11 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from ..reference import FeStore
+from .tables import FeMesh
 
-MESH_COLUMNS = (
-    "case_id", "element_size_mm", "seconds_estimated", "peak_normal_force_N", "peak_normal_force_error",
-    "normal_impulse_error", "note",
-)  # fmt: skip
 COST_GROWTH = 4.0
 """Elements grow with the third power of 1/size, increments with the first."""
 
@@ -21,7 +18,7 @@ def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
     `references` is the reference data package, with mesh studies (forces on several meshes and their extrapolation)
     and the records of the runs in use. Times are estimated: the least time per element and increment of any record
     (the one least disturbed by other work) times elements and increments of the case's run, scaled to the other sizes.
-    The rows' columns are `MESH_COLUMNS`.
+    The rows' columns are those of `FeMesh`.
     """
     store = FeStore(references)
     records = [entry.record for entry in store.entries(engine)]
@@ -46,5 +43,5 @@ def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
                 float(normal["values"][k]), normal["values"][k] / normal["limit"] - 1.0,
                 impulse["values"][k] / impulse["limit"] - 1.0, "error against the limit of three meshes",
             )  # fmt: skip
-            rows.append(dict(zip(MESH_COLUMNS, entries, strict=True)))
+            rows.append(dict(zip(FeMesh.header(), entries, strict=True)))
     return rows

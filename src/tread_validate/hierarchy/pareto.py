@@ -16,6 +16,7 @@ from ..compare.runs import Runs, SourceRun
 from ..errors import InputError, one_line
 from ..spring import run
 from ..study import Case
+from .tables import Level, LevelError
 
 LEVELS = ("paper", "shape_factor_theory", "shape_factor", "condensed_coarse", "condensed")
 GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
@@ -24,20 +25,6 @@ GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
     ("belt", lambda case: case.is_belt),
 )
 PEAKS = ("peak_positive_tangential_force", "peak_negative_tangential_force")
-
-CASE_COLUMNS = (
-    "level", "case_id", "reference", "status", "seconds", "memory_MB",
-    "peak_normal_force_error", "normal_impulse_error",
-    "peak_positive_tangential_force_error_N", "peak_negative_tangential_force_error_N", "tangential_error",
-    "iso18571_normal", "iso18571_tangential", "late_sign_change", "note", "assumed",
-)  # fmt: skip
-COLUMNS = (
-    "level", "group", "reference", "cases", "compared", "seconds_per_pass", "memory_MB",
-    "mean_abs_peak_normal_force_error", "worst_peak_normal_force_error", "worst_case_id",
-    "worst_normal_impulse_error", "tangential_within", "worst_tangential_error_N", "least_iso18571_normal",
-    "least_iso18571_tangential", "mean_iso18571_normal", "mean_iso18571_tangential", "target", "target_met",
-    "target_missed", "note", "assumed",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -84,7 +71,7 @@ def case_rows(
     """Run every level on every case (creep ratios known) and compare with the references of `engine`.
 
     Time is the processor's for one pass, the second one of its kind, so that compiling and the static solve are left
-    out. The rows' columns are `CASE_COLUMNS`.
+    out. The rows' columns are those of `LevelError`.
     """
     source = f"fe:{engine}"
     rows = []
@@ -126,11 +113,11 @@ def case_row(
     else:
         status, note = bad.status, bad.note
     cells = (level, case.case_id, reference.source, status, seconds, memory, *values, note, "; ".join(case.assumed()))
-    return dict(zip(CASE_COLUMNS, cells, strict=True))
+    return dict(zip(LevelError.header(), cells, strict=True))
 
 
 def _errors(rows: Sequence[MetricRow]) -> tuple[Any, ...]:
-    """Return the errors of `CASE_COLUMNS`; None of what a model does not give."""
+    """Return the errors of a `LevelError`; None of what a model does not give."""
     by_name = {(row.quantity, row.metric): row for row in rows}
 
     def difference(name: str) -> float | None:
@@ -164,7 +151,7 @@ def _errors(rows: Sequence[MetricRow]) -> tuple[Any, ...]:
 
 
 def pareto_rows(rows: Sequence[Mapping[str, Any]], cases: Sequence[Case]) -> list[dict[str, Any]]:
-    """Sum `case_rows` up by level and group; the rows' columns are `COLUMNS`.
+    """Sum `case_rows` up by level and group; the rows' columns are those of `Level`.
 
     `tangential_within` is the share of runs whose tangential peaks are both within the tolerance of the results;
     `target_missed` names the parts of a target that a level misses, with what it reaches.
@@ -183,7 +170,7 @@ def _sum_up(level: str, group: str, own: Sequence[Mapping[str, Any]]) -> dict[st
     kept = [row for row in own if row["status"] == "current"]
     target = TARGETS.get(level)
     asked = target is not None and group in target.groups
-    entries: dict[str, Any] = dict.fromkeys(COLUMNS)
+    entries: dict[str, Any] = dict.fromkeys(Level.header())
     entries.update(
         level=level, group=group, reference=own[0]["reference"], cases=len(own), compared=len(kept),
         seconds_per_pass=_of(np.median, _known(own, "seconds")), memory_MB=_of(np.max, _known(own, "memory_MB")),

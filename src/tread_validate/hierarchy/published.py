@@ -16,6 +16,7 @@ from ..errors import EngineError, InputError
 from ..spring import free_rolling_creep, run
 from ..study import Case, SimplifiedBelt
 from ..units import IN_MM, MM
+from .tables import CombinationRow, PublishedFigure
 
 Array = NDArray[np.float64]
 
@@ -24,16 +25,12 @@ NORMAL, TANGENTIAL, CREEP = 200.0, 80.0, 0.003
 TOLERANCE = 0.10
 """The paper prints one or two figures: a value within this share of it is counted as met."""
 
-COLUMNS = (
-    "level", "case_id", "figure", "published", "computed", "unit", "error", "met", "note", "assumed",
-)  # fmt: skip
-
 
 def published_rows(cases: Sequence[Case], references: Runs, engine: str, levels: Sequence[str]) -> list[dict[str, Any]]:
     """Return the published figures of the belt run beside those of each level and of the reference runs.
 
     Simplified profile, as the paper's spring model; the creep ratio of the force figures is the published 0.3 %. The
-    rows' columns are `COLUMNS`.
+    rows' columns are those of `PublishedFigure`.
     """
     belt = [case for case in cases if isinstance(case.path, SimplifiedBelt)]
     at_published = next((case for case in belt if case.creep_ratio == CREEP), None)
@@ -75,14 +72,8 @@ def _rows(level: str, case: Case, found: Scalars, creep: float | None, note: str
             error = computed - published if published == 0.0 else computed / published - 1.0
             met = abs(error) <= TOLERANCE
         entries = (level, case.case_id, figure, published, computed, unit, error, met, note, "; ".join(case.assumed()))
-        out.append(dict(zip(COLUMNS, entries, strict=True)))
+        out.append(dict(zip(PublishedFigure.header(), entries, strict=True)))
     return out
-
-
-COMBINATION_COLUMNS = (
-    "level", "what", "edge_radius_mm", "patch_length_mm", "modulus_factor", "peak_normal_force_N",
-    "largest_tangential_force_N", "creep_percent", "late_sign_change", "meets_all", "note", "assumed",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -117,7 +108,7 @@ def scaled(case: Case, factor: float) -> Any:
 def combination_rows(case: Case, levels: Sequence[str]) -> list[dict[str, Any]]:
     """Search edge radius, patch length and modulus that give N = 200 N, |T|max = 80 N and creep 0.3 % at once.
 
-    `case` is a belt case on the simplified profile. The rows' columns are `COMBINATION_COLUMNS`.
+    `case` is a belt case on the simplified profile. The rows' columns are those of `CombinationRow`.
     """
     assert isinstance(case.path, SimplifiedBelt)
     published = Combination(MM * case.path.edge_radius_mm, MM * case.path.patch_length_mm, 1.0)
@@ -174,4 +165,4 @@ def _row(case: Case, level: str, what: str, combination: Combination, found: Out
         found.normal, found.tangential, 100.0 * found.creep, found.late, meets_all,
         note, "; ".join(case.assumed()),
     )  # fmt: skip
-    return dict(zip(COMBINATION_COLUMNS, entries, strict=True))
+    return dict(zip(CombinationRow.header(), entries, strict=True))

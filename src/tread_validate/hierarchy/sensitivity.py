@@ -18,13 +18,9 @@ from ..spring.block_pass import BlockPass, prepare
 from ..spring.creep import root_of
 from ..study import Case
 from ..units import MM
+from .tables import SobolIndex
 
 Array = NDArray[np.float64]
-
-COLUMNS = (
-    "run", "quantity", "unit", "input", "low", "high", "input_unit", "first_order", "first_order_ci", "total",
-    "total_ci", "mean", "sd", "p05", "p95", "samples", "assumed",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -144,7 +140,7 @@ def sobol_rows(case: Case, samples: int = 256, with_creep: bool = True, seed: in
 
     `samples` is the base sample N, a power of two; the number of passes is N (inputs + 2). The scheme is that of
     Saltelli et al., Comput. Phys. Commun. 181 (2010) 259-270, doi:10.1016/j.cpc.2009.09.018. The rows' columns are
-    `COLUMNS`.
+    those of `SobolIndex`.
     """
     from SALib.analyze import sobol
     from SALib.sample import sobol as sampler
@@ -174,7 +170,7 @@ def sobol_rows(case: Case, samples: int = 256, with_creep: bool = True, seed: in
                 float(indices["ST_conf"][k]), float(values.mean()), spread, float(low), float(high),
                 int(values.size), "; ".join(case.assumed()),
             )  # fmt: skip
-            rows.append(dict(zip(COLUMNS, entries, strict=True)))
+            rows.append(dict(zip(SobolIndex.header(), entries, strict=True)))
     return rows
 
 

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
+from ..compare.tables import Row as ResultRow
+from ..compare.tables import read_rows
 from ..errors import InputError
 from ..files import read_text, write_text
+from ..hierarchy.tables import TABLES, Level
 from ..reference import FeStore
 from ..source_code import code_digest
 from ..study import LoadedStudy, conditions_digest
 from ..units import IN_MS
 from ..yaml_text import read_yaml
 from . import wording
-from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table
+from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table, Tone
 from .inputs import plain_table
 from .marks import Marks
 from .svg import lighter
-from .tables import number, read_table, records
+from .tables import number
 
 FIGURES = (
     ("pareto", "Cost and error of each model level", "Error of the peak normal force against the time of one pass."),
@@ -33,18 +34,6 @@ FIGURES = (
         "and range over runs, for the study's compound and published rubbers.",
     ),
     ("compatibility", "Speed and temperature together", "Which spectra of the compound could give both coefficients."),
-)
-TABLES = (
-    ("pareto", "Cost and error of each model level"),
-    ("published", "Published figures of the belt run, level by level"),
-    ("effects", "What each physical effect is worth"),
-    ("combinations", "Which edge radius, patch length and modulus would meet all published figures"),
-    ("compound_dependence", "How much of what is said of the paper's springs depends on the compound"),
-    ("compounds", "Errors of the paper's springs by compound, against the condensed model"),
-    ("compatibility", "Which compounds could give both published coefficients"),
-    ("sobol", "Sobol indices"),
-    ("stiffness", "Stiffness of the block bonded to its mount, solved and in closed form"),
-    ("fe_meshes", "Cost and error of the FE meshes"),
 )
 
 
@@ -62,27 +51,28 @@ def hierarchy_section(folder: Path | None, study: LoadedStudy, drawn: Path, mark
         items.append(Paragraph("Stale: made when the study had other conditions. Make the hierarchy anew."))
     if record.get("code") != code_digest("hierarchy"):
         items.append(Paragraph("Made by other code than today's. Make the hierarchy anew: make hierarchy."))
-    tables = {name: read_table(folder / f"{name}.csv", ()) for name, _ in TABLES if (folder / f"{name}.csv").is_file()}
+    tables = {kind: read_rows(_file(folder, kind), kind) for kind in TABLES if _file(folder, kind).is_file()}
     figures = []
     for name, title, caption in FIGURES:
         source = folder / "figures" / f"{name}.svg"
         if source.is_file():
             svg, data = drawn / f"hierarchy-{name}.svg", drawn / f"hierarchy-{name}.csv"
             write_text(svg, lighter(read_text(source)))
-            if name in tables:
-                shutil.copyfile(folder / f"{name}.csv", data)
-            table = tables.get(name)
-            own = marks.of_column(table["assumed"]) if table is not None and "assumed" in table else ()
+            kind = next((kind for kind in tables if kind.table == name), None)
+            if kind is not None:
+                shutil.copyfile(_file(folder, kind), data)
+            own = marks.of_column(getattr(row, "assumed", "") for row in tables[kind]) if kind is not None else ()
             figures.append(
-                Figure(svg.stem, title, caption, svg, own, wide=name == "sobol", data=data if name in tables else None)
+                Figure(
+                    svg.stem, title, caption, svg, own, wide=name == "sobol", data=data if kind is not None else None
+                )
             )
     if figures:
         items.append(Figures(tuple(figures)))
-    if "pareto" in tables:
-        items.append(_pareto(tables["pareto"], marks))
-    for name, title in TABLES:
-        if name in tables:
-            items.append(plain_table(f"hierarchy-{name}", title, tables[name], marks, folded=True))
+    if Level in tables:
+        items.append(_pareto(read_rows(_file(folder, Level), Level), marks))
+    for kind, rows in tables.items():
+        items.append(plain_table(f"hierarchy-{kind.table}", kind, rows, marks, folded=True))
     return Section("hierarchy", "The model hierarchy", tuple(items)) if tables else None
 
 
@@ -93,31 +83,31 @@ def _record(path: Path) -> dict[str, Any]:
     return record
 
 
-def _pareto(frame: pd.DataFrame, marks: Marks) -> Table:
+def _file(folder: Path, kind: type[ResultRow]) -> Path:
+    return folder / f"{kind.table}.csv"
+
+
+def _pareto(levels: Sequence[Level], marks: Marks) -> Table:
     """Return what a reader asks first of each level: how long it takes, how wrong it is, if that was the target."""
     rows = []
-    for record in records(frame):
-        seconds, mean, worst = (
-            number(record[key])
-            for key in ("seconds_per_pass", "mean_abs_peak_normal_force_error", "worst_peak_normal_force_error")
-        )
-        within, normal, tangential = (
-            number(record[key]) for key in ("tangential_within", "least_iso18571_normal", "least_iso18571_tangential")
-        )
-        met = str(record["target_met"]).lower()
-        outcome = {"true": ("✓ met", "good"), "false": ("✗ not met", "bad")}.get(met, ("–", "mute"))
-        words = "; ".join(part for part in (str(record["target"]), str(record.get("target_missed", ""))) if part)
+    outcomes: dict[bool | None, tuple[str, Tone]] = {True: ("✓ met", "good"), False: ("✗ not met", "bad")}
+    for level in levels:
+        outcome, tone = outcomes.get(level.target_met, ("–", "mute"))
+        words = "; ".join(part for part in (level.target, level.target_missed) if part)
+        seconds, worst = level.seconds_per_pass, level.worst_peak_normal_force_error
+        mean, within = level.mean_abs_peak_normal_force_error, level.tangential_within
+        normal, tangential = level.least_iso18571_normal, level.least_iso18571_tangential
         cells = (
-            Cell(str(record["group"])),
-            Cell(f"{number(record['compared']) or 0:.0f} of {number(record['cases']) or 0:.0f}"),
+            Cell(level.group),
+            Cell(f"{level.compared} of {level.cases}"),
             Cell(wording.digits(None if seconds is None else IN_MS * seconds), sort=seconds),
             Cell(wording.percent(mean), sort=mean),
-            Cell(wording.percent(worst, sign=True), sort=worst, note=str(record["worst_case_id"] or "")),
+            Cell(wording.percent(worst, sign=True), sort=worst, note=level.worst_case_id),
             Cell(wording.percent(within, 0), sort=within),
             Cell(f"{wording.digits(normal, 2)} / {wording.digits(tangential, 2)}", sort=normal),
-            Cell(outcome[0], tone=outcome[1], note=words),  # type: ignore[arg-type]
+            Cell(outcome, tone=tone, note=words),
         )
-        rows.append(Row(cells, marks.of(record["assumed"]), group=str(record["level"]).replace("_", " ")))
+        rows.append(Row(cells, marks.of(level.assumed), group=level.level.replace("_", " ")))
     columns = (
         Column("Cases"),
         Column("Compared"),

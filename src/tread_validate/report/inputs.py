@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .. import provenance
-from ..compare.tables import PublishedRow
+from ..compare.tables import PublishedRow, cell
+from ..compare.tables import Row as ResultRow
 from . import wording
 from .content import Cell, Column, Item, Paragraph, Row, Section, Table
 from .marks import Marks
-from .tables import Tables, number, records
+from .tables import Tables
 
 # endings of column names and the units they stand for; the longest match comes first
 UNITS = {
@@ -161,21 +162,26 @@ def stamp(tables: Tables) -> tuple[tuple[str, str], ...]:
     )
 
 
-def plain_table(key: str, title: str, frame: Any, marks: Marks, *, folded: bool = False, limit: int = 400) -> Table:
-    """Return any table as it is, for tables whose columns the report does not know."""
-    names = [str(name) for name in frame.columns if name != "assumed"]
-    numeric = {name: str(frame[name].dtype) != "str" and frame[name].dtype.kind in "if" for name in names}
+def plain_table(
+    key: str, kind: type[ResultRow], found: Sequence[ResultRow], marks: Marks, *, folded: bool = False, limit: int = 400
+) -> Table:
+    """Return any table of results as it is, headed by what its row class declares."""
+    shown = [item for item in kind.columns() if item.name != "assumed"]
     rows = []
-    for record in records(frame.head(limit)):
+    for one in found[:limit]:
+        values = one.cells()
         cells = []
-        for name in names:
-            value = number(record[name]) if numeric[name] else None
-            text = wording.plain(value, 4) if numeric[name] else wording.plain_text(record[name])
-            cells.append(Cell(text, sort=value))
-        rows.append(Row(tuple(cells), marks.of(record.get("assumed", ""))))
-    columns = tuple(Column(*_title(name), numeric=numeric[name]) for name in names)
-    caption = f"First {limit} of {len(frame)} rows." if len(frame) > limit else ""
-    return Table(key, title, columns, tuple(rows), caption, with_marks="assumed" in frame.columns, folded=folded)
+        for item in shown:
+            value = values[item.name]
+            if item.kind in ("number", "integer"):
+                cells.append(Cell(wording.plain(value, 4), sort=value))
+            else:
+                cells.append(Cell(wording.plain_text(cell(value))))
+        rows.append(Row(tuple(cells), marks.of(values.get("assumed", ""))))
+    columns = tuple(Column(*_title(item.name), numeric=item.kind in ("number", "integer")) for item in shown)
+    caption = f"First {limit} of {len(found)} rows." if len(found) > limit else ""
+    marked = len(shown) < len(kind.columns())
+    return Table(key, kind.title, columns, tuple(rows), caption, with_marks=marked, folded=folded)
 
 
 def _title(name: str) -> tuple[str, str]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..compare.scores.iso18571 import grade
-from ..compare.tables import Ensemble, MetricRow
+from ..compare.tables import Ensemble, MetricRow, read_rows
+from ..hierarchy.tables import Level
 from ..study import LoadedStudy
 from ..units import IN_MS
 from . import wording
@@ -40,10 +41,9 @@ class Costs:
         found: dict[str, float] = {}
         file = None if hierarchy is None else hierarchy / "pareto.csv"
         if file is not None and file.is_file():
-            for row in records(read_table(file, ("level", "group", "seconds_per_pass"))):
-                seconds = number(row["seconds_per_pass"])
-                if row["group"] == "all" and seconds is not None:
-                    found[f"spring:{row['level']}"] = seconds
+            for row in read_rows(file, Level):
+                if row.group == "all" and row.seconds_per_pass is not None:
+                    found[f"spring:{row.level}"] = row.seconds_per_pass
         for name in study.model.models:
             file = models / name / "summary.csv"
             if file.is_file():

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from tread_validate.compare.quantities import tolerances
-from tread_validate.hierarchy.compounds import COLUMNS, DEPENDENCE_COLUMNS, QUANTITIES, compound_tables
+from tread_validate.hierarchy.compounds import QUANTITIES, compound_tables
+from tread_validate.hierarchy.tables import CompoundDependence, CompoundError
 from tread_validate.study import Case, Coulomb, load_study
 from tread_validate.study.library import FOLDER
 
@@ -46,8 +47,8 @@ def test_relative_errors_of_elastic_compounds_do_not_depend_on_their_modulus(
             assert own["soft"]["mean_error"] == pytest.approx(own["stiff"]["mean_error"], abs=1e-6)
         assert own["soft"]["loss_factor"] == 0.0
         assert own["stiff"]["storage_modulus_MPa"] == pytest.approx(20.0)
-        assert set(own["soft"]) == set(COLUMNS)
-    assert all(set(row) == set(DEPENDENCE_COLUMNS) for row in dependence)
+        assert set(own["soft"]) == set(CompoundError.header())
+    assert all(set(row) == set(CompoundDependence.header()) for row in dependence)
 
 
 def test_a_compound_against_itself_changes_nothing(rig: Case, library: Callable[..., Path], root: Path) -> None:
