@@ -11,6 +11,7 @@ from ..files import write_text
 from ..palette import looks
 from ..study import load_study
 from . import figures
+from .alternating import alternating_table
 from .baseline import baseline_section
 from .cases import case_views
 from .claims import claims_table
@@ -127,7 +128,11 @@ def compose(study_path: Path, places: Places) -> Report:
     delta, moved = baseline_section(places.baseline_delta, marks, places.tables, places.out / "baseline", drawn.moved)
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
-    results += [table for table in (mesh_table(places.reference), sensitivity) if table is not None]
+    results += [
+        table
+        for table in (alternating_table(tables, marks), mesh_table(places.reference), sensitivity)
+        if table is not None
+    ]
     screen = first_screen(
         tables, marks, models_table(tables, study, Costs.read(places.hierarchy, places.models, study), marks), moved,
         drawn.overview(),

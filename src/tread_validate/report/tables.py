@@ -24,6 +24,7 @@ from ..compare.tables import (
     PublishedRow,
     Residual,
     Sensitivity,
+    StatisticsRow,
     read_rows,
 )  # fmt: skip
 from ..errors import InputError
@@ -42,6 +43,7 @@ class Tables:
     errors: tuple[MetricRow, ...]
     ensemble: tuple[Ensemble, ...]
     expected: tuple[ExpectedRow, ...]
+    statistics_rows: tuple[StatisticsRow, ...]
     regression: tuple[Coefficient, ...]
     differences: tuple[Difference, ...]
     residuals: tuple[Residual, ...]
@@ -87,6 +89,7 @@ def read_tables(folder: Path | str) -> Tables:
         peaks=read_rows(place / "peaks.csv", PeakRow),
         errors=read_rows(place / "errors.csv", MetricRow),
         ensemble=read_rows(place / "ensemble.csv", Ensemble),
+        statistics_rows=read_rows(place / "statistics.csv", StatisticsRow),
         expected=read_rows(place / "expected.csv", ExpectedRow),
         regression=read_rows(place / "regression.csv", Coefficient),
         differences=read_rows(place / "regression_differences.csv", Difference),
