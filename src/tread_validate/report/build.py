@@ -22,6 +22,7 @@ from .expected import expected_section
 from .extra import hierarchy_section, mesh_table
 from .figures import figure_items
 from .figures.workflow import rule_graph
+from .help import with_help
 from .histories import HistoryStore, load_histories
 from .html import render
 from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
@@ -167,7 +168,7 @@ def compose(study_path: Path, places: Places) -> Report:
     return Report(
         title="Tread-block validation report",
         subtitle=study.model.title,
-        sections=tuple(section for section in sections if section is not None and section.items),
+        sections=tuple(with_help(section) for section in sections if section is not None and section.items),
         stamp=stamp(tables),
         page_data=data,
     )

@@ -66,6 +66,16 @@ class Tables:
                 return row
         return None
 
+    def sliding(self, pair: Pair) -> tuple[float, float] | None:
+        """Return the share of the face that slides, reference and prediction, mean over the cases that give both."""
+        both = [
+            (row.reference, row.predicted)
+            for row in self.errors
+            if row.quantity == "slipping_share" and row.metric == "scalar" and pair_of(row) == pair
+        ]
+        known = [(x, y) for x, y in both if x is not None and y is not None]
+        return (sum(x for x, _ in known) / len(known), sum(y for _, y in known) / len(known)) if known else None
+
     def of_pair(self, pair: Pair) -> list[MetricRow]:
         """Return the errors of one source against one other."""
         return [row for row in self.errors if pair_of(row) == pair]
