@@ -60,7 +60,9 @@ map: $(BIN)/.installed gfortran ## Where each model may be believed: FE over the
 bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory
 	@for file in $(filter-out benchmarks/material_pyvisco.py,$(wildcard benchmarks/*.py)); do echo "== $$file"; $(BIN)/python $$file || exit 1; done
 
-docs: $(BIN)/.installed-dev report ## Build the guide, links checked: build/docs/index.html
+# its pages tell the paper's study and name its cases; the report of another study is its own page
+docs: override STUDY := config/study.yaml
+docs: $(BIN)/.installed-dev report ## Build the guide (of the paper's study, whatever STUDY is), links checked: build/docs/index.html
 	@$(BIN)/python docs/generate.py
 	@$(BIN)/mkdocs build --strict --quiet
 	@echo "The guide: build/docs/index.html"

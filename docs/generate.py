@@ -60,7 +60,7 @@ def table(columns: dict[str, str], items: list[dict[str, str]]) -> str:
 def figure(name: str, caption: str) -> str:
     """Return an image of the report, or words in its place."""
     source = ROOT / "reports" / STUDY / "figures" / f"{name}.svg"
-    if not source.is_file():
+    if not there(source):
         return f"*{caption}: {NOT_MADE}.*"
     shutil.copyfile(source, OUT / source.name)
     return f"![{caption}]({source.name})\n\n*{caption}*"

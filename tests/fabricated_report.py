@@ -132,6 +132,7 @@ def _frames(cases: tuple[Case, ...]) -> dict[str, pd.DataFrame]:
         "errors": _errors(cases, assumed),
         "ensemble": _ensemble(len(cases)),
         "expected": _expected(cases, assumed),
+        "statistics": _statistics(cases, assumed),
         **_regressions(),
         "claims": _claims(),
         "published": pd.DataFrame(
@@ -281,6 +282,29 @@ def _expected(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                     "outside_map": "interference" if outside else "",
                     "map_made_by": "the model changed since the map was made",
                     "status": state(case),
+                    "assumed": assumed[case.case_id],
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def _statistics(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
+    """Stick and slip alternate in the reference of the first case; the model's means are 5 % lower."""
+    rows = []
+    for case in cases:
+        for source, factor in ((REFERENCE, 1.0), (MODEL, 0.95)):
+            alternates = source == REFERENCE and case is cases[0]
+            rows.append(
+                {
+                    "source": source,
+                    "case_id": case.case_id,
+                    "mean_normal_N": 100.0 * factor,
+                    "mean_tangential_N": -40.0 * factor,
+                    "rms_tangential_N": 50.0 * factor,
+                    "scatter_N": 3.0,
+                    "frequency_Hz": 2500.0 if alternates else "",
+                    "alternates": alternates,
+                    "status": "not_a_reference" if alternates else "current",
                     "assumed": assumed[case.case_id],
                 }
             )

@@ -190,6 +190,17 @@ def test_filter_leaves_the_rows_that_hold_the_words(open_page: Any) -> None:
     open_page.js("document.querySelector(\"details[data-table='ensemble']\").open = true")
     rows = "[...document.querySelectorAll('#table-ensemble tbody tr:not(.group):not([hidden])')]"
     open_page.until(f"{rows}.length === 10")
+    open_page.js("document.querySelector(\"input[data-table='table-ensemble']\")?.focus()")
+    open_page.send("Input.insertText", text="PEAK normal")
+    names = f"{rows}.map(row => row.cells[0].textContent.toLowerCase())"
+    open_page.until(f"{rows}.length < 10")
+    left = open_page.js(names)
+    assert left
+    assert all("peak" in name and "normal" in name for name in left)
+    assert len(left) == open_page.js(
+        "[...document.querySelectorAll('#table-ensemble tbody tr:not(.group)')]"
+        ".filter(row => /peak/i.test(row.textContent) && /normal/i.test(row.textContent)).length"
+    )
     links = open_page.js("document.querySelector(\"details[data-table='ensemble'] a[download]\").getAttribute('href')")
     assert links == "tables/ensemble.csv"
 

@@ -58,8 +58,8 @@ rows = np.array([0, 2])
 evaluate_amplitudes(
     rows, np.arange(2.0), two, np.arange(2.0), np.array([False]), zero, np.array([0]), 0.5, value, area
 )
-q = np.zeros((1, 3))
-_follow(np.eye(3, dtype=np.float32), np.array([0]), np.ones((1, 3)), 0, 1, q)
+q, moved = np.zeros((2, 3)), np.zeros(6, dtype=np.float32)
+_follow(np.eye(6, dtype=np.float32), np.array([0, 1]), np.ones((2, 3)), 0, 2, moved, q)
 print(json.dumps({
     "friction to spring": kinetic(KernelLaw(0.9, 0, np.array([0.7]), one, one, np.ones((1, 1))), 1.0, 1.0),
     "state code to step": q[0, 0],

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from tread_validate.spring import element_history, free_rolling_creep, run
 from tread_validate.spring.block_pass import prepare
-from tread_validate.spring.element import SLIPPING, TOUCHING
+from tread_validate.spring.element_record import SLIPPING, TOUCHING
 from tread_validate.study import Case, PronyTerm
 
 Array = NDArray[np.float64]

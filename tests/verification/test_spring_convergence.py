@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tread_validate.spring import run
 from tread_validate.spring.block_pass import prepare
-from tread_validate.spring.element import PRESSURE
+from tread_validate.spring.element_record import PRESSURE
 from tread_validate.study import Case, Sipe, load_study
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ import pytest
 import tread_validate as tv
 from tread_validate.geometry import path_of
 from tread_validate.spring.block_pass import prepare
-from tread_validate.spring.element import PRESSURE, SHEAR
+from tread_validate.spring.element_record import PRESSURE, SHEAR
 
 RIG = "rig-rectangle-22c-0p2mm-300rpm"
 BELT = "belt-simplified-60c-0p2mm-16p7mps-creep0p3"

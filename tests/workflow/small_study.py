@@ -34,6 +34,7 @@ class Small:
         if belt:
             rig.update(temperature_degC=45.0, speed_rpm=600.0)
             data["runs"].append(dict(tyre, path="simplified", creep_percent=0.3))
+        del data["mesh_of_path"]
         data["spring"]["variants"] = ["paper"]
         data["deck"].update({"element_size_mm": 4.0, "layers": 4, "constant_friction_variant": False, **deck})
         path = self.folder / file

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import base64
+import csv
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 
 import pytest
@@ -71,6 +76,41 @@ def test_study_becomes_decks_histories_tables_and_a_report(finished):
     page = (finished / "reports" / "liu2010" / "index.html").read_text(encoding="utf-8")
     assert all(case in page for case in cases)
     assert (finished / "reports" / "liu2010" / "report.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_built_report_has_no_empty_cell_and_figures_with_units(finished):
+    """Every cell of every table says something; a figure's numbers name their panel by what stands on its axes."""
+    report = finished / "reports" / "liu2010"
+    page = (report / "index.html").read_text(encoding="utf-8")
+    folded = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))["tables"]
+    texts = [page, *(zlib.decompress(base64.b64decode(text), wbits=-15).decode() for text in folded.values())]
+    cells = [cell for text in texts for cell in re.findall(r"<td[^>]*>(.*?)</td>", text, re.DOTALL)]
+    assert len(cells) > 1000
+    words = [re.sub(r"<[^>]*>", "", cell).strip() for cell in cells]
+    assert [cell for cell, word in zip(cells, words, strict=True) if not word and "heat-cell" not in cell] == []
+    assert {"nan", "NaN", "None", "true", "false"} & set(words) == set()
+    numbers = sorted((report / "figures").glob("*.csv"))
+    assert {file.stem for file in numbers} == {file.stem for file in (report / "figures").glob("*.svg")}
+    for file in numbers:
+        header, *rows = csv.reader(file.read_text(encoding="utf-8").splitlines())
+        assert rows, file.name
+        assert "nan" not in {cell for row in rows for cell in row}, file.name
+        if header[0] == "panel":
+            units = r", (%|N|MPa|mm|1/m|% of fitted force)$|^(row|coefficient of friction)$"
+            assert all(re.search(units, row[0].split(" against ")[0]) for row in rows), file.name
+    told = subprocess.run(["pdfinfo", report / "report.pdf"], check=True, capture_output=True, text=True).stdout
+    assert int(re.search(r"Pages:\s+(\d+)", told).group(1)) <= 20
+
+
+def test_run_times_of_this_run_stand_beside_the_report(finished):
+    """Decks, springs, tables and report ran in this run, each with seconds; what was not asked for has not run."""
+    page = (finished / "reports" / "liu2010" / "run_times.html").read_text(encoding="utf-8")
+    rows = {row.split("</td>")[0].split(">")[-1]: row for row in page.split("<tr>")}
+    for rule in ("decks", "spring", "tables", "report"):
+        assert "this run" in rows[rule], rule
+    assert "has not run here" in rows["fe"]
+    index = (finished / "reports" / "liu2010" / "index.html").read_text(encoding="utf-8")
+    assert 'id="figure-rule-graph"' in index
 
 
 def test_second_run_has_nothing_to_do(finished):

@@ -82,11 +82,16 @@ def stale_histories(wildcards):
 stale_histories.needs = ("stale_references", "fe")
 
 
+def mesh_in_use(wildcards):
+    """The mesh of a case's deck: the study's, or that of its path."""
+    return next(case.deck for case in STUDY_CASES if case.case_id == wildcards.case)
+
+
 def mesh_options(wildcards):
-    deck, factor = study.model.deck, MESHES[wildcards.mesh]
+    deck, factor = mesh_in_use(wildcards), MESHES[wildcards.mesh]
     if deck.layers % 2 or deck.layers < 4:
         raise WorkflowError(
-            f"{STUDY}: deck.layers: got {deck.layers}, expected an even number of 4 or more for a mesh study: "
+            f"{STUDY}: layers of {wildcards.case}: got {deck.layers}, expected an even number of 4 or more for a mesh study: "
             "the coarse mesh has half of it"
         )
     return f"--element-size {deck.element_size_mm * factor:g} --layers {round(deck.layers / factor)}"

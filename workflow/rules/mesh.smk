@@ -56,8 +56,8 @@ rule mesh_error:
     conda:
         ENVIRONMENT
     params:
-        sizes=[
-            f"--size {study.model.deck.element_size_mm * factor:g}"
+        sizes=lambda wildcards: [
+            f"--size {mesh_in_use(wildcards).element_size_mm * factor:g}"
             for factor in MESHES.values()
         ],
         code=CODE["compare"],

@@ -14,7 +14,7 @@ from .provenance import assumed_inputs, provenance
 from .regression.line import EXCLUDED_INTERFERENCES
 from .study_comparison import Comparison, compare_study
 from .summary import write_summary
-from .table_rows import case_row, claim_row, peak_row, tolerance_row
+from .table_rows import case_row, claim_row, peak_row, statistics_row, tolerance_row
 from .tables import (
     AssumedRow,
     CaseRow,
@@ -27,6 +27,7 @@ from .tables import (
     PeakRow,
     Residual,
     Sensitivity,
+    StatisticsRow,
     ToleranceRow,
     write_package,
     write_rows,
@@ -70,6 +71,7 @@ def write_tables(found: Comparison, reference_dir: Path, out_dir: Path) -> None:
     by_id = {case.case_id: case for case in found.cases}
     write_rows(out_dir, CaseRow, map(case_row, found.cases))
     write_rows(out_dir, PeakRow, (peak_row(by_id[case_id], run) for (_, case_id), run in found.runs.items()))
+    write_rows(out_dir, StatisticsRow, (statistics_row(by_id[name], run) for (_, name), run in found.runs.items()))
     write_rows(out_dir, Ensemble, found.ensembles)
     write_rows(out_dir, Coefficient, found.coefficients)
     write_rows(out_dir, Difference, found.differences)

@@ -13,7 +13,7 @@ from .baseline.store import Baseline
 from .model_runs import model_source
 from .tables import Coefficient
 
-BY_CASE = {"peaks": "source", "errors": "predicted_source", "expected": "predicted_source"}
+BY_CASE = {"peaks": "source", "errors": "predicted_source", "expected": "predicted_source", "statistics": "source"}
 BY_SOURCE = {
     "regression": "source",
     "regression_residuals": "source",

@@ -12,7 +12,7 @@ from ..inp import deck_files
 from ..reference import FeStore
 from ..spring.variants import code_digest
 from ..study import Case
-from .quantities import Scalars, scalars
+from .quantities import Scalars, Statistics, scalars, statistics
 from .scores.uncertainty import Uncertainty, from_mesh_error
 
 
@@ -35,6 +35,8 @@ class SourceRun:
         Relative standard uncertainty of the forces, of a run as a reference; None where not known.
     numerical : float, mapping or None
         That of the forces from mesh and step, of a run as a prediction; 0 where it counts as part of the model.
+    statistics : or None
+        Means and scatter, of a run that is no reference too; None where there is no history with T.
     digest : str
         SHA-256 of the history file, empty where there is none.
     folder : str
@@ -51,6 +53,7 @@ class SourceRun:
     digest: str = ""
     folder: str = ""
     numerical: Uncertainty = 0.0
+    statistics: Statistics | None = None
 
 
 Runs = Mapping[tuple[str, str], SourceRun]
@@ -80,7 +83,7 @@ def fe_runs(
         run = SourceRun(source, case.case_id, found.status, found.reason, digest=found.digest, folder=folder)
         fault = found.fault()
         if fault:
-            run = replace(run, status="not_a_reference", note=fault)
+            run = replace(run, status="not_a_reference", note=fault, statistics=_statistics(found.history))
         elif found.history is not None:
             stated = found.stated_error()
             error = store.mesh_errors.error(case, engine) if stated is None else stated
@@ -124,4 +127,15 @@ def with_scalars(run: SourceRun, history: History, uncertainty: Uncertainty) -> 
         values = scalars(history)
     except InputError as error:
         return replace(run, status="no_contact", note=one_line(str(error)))
-    return replace(run, history=history, scalars=values, uncertainty=uncertainty)
+    means = _statistics(history)
+    return replace(run, history=history, scalars=values, uncertainty=uncertainty, statistics=means)
+
+
+def _statistics(history: History | None) -> Statistics | None:
+    """Return means and scatter; None without contact or T."""
+    if history is None or not history.gives_tangential:
+        return None
+    try:
+        return statistics(history)
+    except InputError:
+        return None

@@ -9,7 +9,7 @@ from ..units import IN_MM, IN_MPA
 from .claims.claim import Claim
 from .quantities import SCALARS, Tolerance
 from .runs import SourceRun
-from .tables import CaseRow, ClaimRow, PeakRow, ToleranceRow
+from .tables import CaseRow, ClaimRow, PeakRow, StatisticsRow, ToleranceRow
 
 
 def case_row(case: Case) -> CaseRow:
@@ -40,6 +40,23 @@ def peak_row(case: Case, run: SourceRun) -> PeakRow:
         note=run.note,
         history_sha256=run.digest,
         folder=run.folder,
+        assumed="; ".join(case.assumed()),
+    )
+
+
+def statistics_row(case: Case, run: SourceRun) -> StatisticsRow:
+    """Return means and scatter of one run, empty where it has no history with T."""
+    found = run.statistics
+    return StatisticsRow(
+        source=run.source,
+        case_id=case.case_id,
+        mean_normal_N=None if found is None else found.mean_normal,
+        mean_tangential_N=None if found is None else found.mean_tangential,
+        rms_tangential_N=None if found is None else found.rms_tangential,
+        scatter_N=None if found is None else found.scatter,
+        frequency_Hz=None if found is None else found.frequency,
+        alternates=run.status == "not_a_reference" and "stick and slip alternate" in run.note,
+        status=run.status,
         assumed="; ".join(case.assumed()),
     )
 

@@ -11,6 +11,7 @@ from ..files import write_text
 from ..palette import looks
 from ..study import load_study
 from . import figures
+from .alternating import alternating_table
 from .baseline import baseline_section
 from .cases import case_views
 from .claims import claims_table
@@ -21,6 +22,7 @@ from .expected import expected_section
 from .extra import hierarchy_section, mesh_table
 from .figures import figure_items
 from .figures.workflow import rule_graph
+from .help import with_help
 from .histories import HistoryStore, load_histories
 from .html import render
 from .inputs import inputs_section, provenance_section, sensitivity_table, stamp
@@ -127,7 +129,11 @@ def compose(study_path: Path, places: Places) -> Report:
     delta, moved = baseline_section(places.baseline_delta, marks, places.tables, places.out / "baseline", drawn.moved)
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
-    results += [table for table in (mesh_table(places.reference), sensitivity) if table is not None]
+    results += [
+        table
+        for table in (alternating_table(tables, marks), mesh_table(places.reference), sensitivity)
+        if table is not None
+    ]
     screen = first_screen(
         tables, marks, models_table(tables, study, Costs.read(places.hierarchy, places.models, study), marks), moved,
         drawn.overview(),
@@ -162,7 +168,7 @@ def compose(study_path: Path, places: Places) -> Report:
     return Report(
         title="Tread-block validation report",
         subtitle=study.model.title,
-        sections=tuple(section for section in sections if section is not None and section.items),
+        sections=tuple(with_help(section) for section in sections if section is not None and section.items),
         stamp=stamp(tables),
         page_data=data,
     )

@@ -89,6 +89,8 @@ def _row(tables: Tables, study: LoadedStudy, costs: Costs, marks: Marks, source:
     longitudinal = [row for name in LONGITUDINAL if (row := tables.statistics(pair, name)) is not None]
     seconds = costs.seconds.get(source)
     assessed, tone, note = assessment(normal, longitudinal)
+    if any(row.compared for row in longitudinal):
+        note += f"; {wording.sliding(tables.sliding(pair))}"
     cells = (
         Cell(wording.source(source), note="; ".join(filter(None, (own_words(study, source), *_told(tables, source))))),
         _errors([normal] if normal else []),

@@ -34,7 +34,7 @@ def ensemble_table(tables: Tables, marks: Marks, *, headline: bool) -> Table:
         answered = {pair_of(row) for row in found if row.compared}
         # a comparison with nothing to compare with is one row, not eleven
         found = [row for row in found if pair_of(row) in answered or (row.quantity, row.metric) == HEADLINE[0]]
-    rows = tuple(_ensemble_row(row, marks, headline) for row in found)
+    rows = tuple(_ensemble_row(row, marks, headline, _sliding(tables, row)) for row in found)
     columns = [
         Column("Quantity", wide=True),
         Column("Cases compared", "of all", numeric=True),
@@ -74,12 +74,21 @@ def _order(row: Ensemble) -> tuple[bool, str, str]:
     return not (predicted.startswith(("spring", "model")) and reference.startswith("fe")), predicted, reference
 
 
-def _ensemble_row(row: Ensemble, marks: Marks, headline: bool) -> Row:
+def _sliding(tables: Tables, row: Ensemble) -> str:
+    """Return the sliding share where a longitudinal force is judged over all cases."""
+    judged = (
+        row.group == "all" and row.compared and row.metric == "scalar" and row.quantity.endswith("tangential_force")
+    )
+    return wording.sliding(tables.sliding(pair_of(row))) if judged else ""
+
+
+def _ensemble_row(row: Ensemble, marks: Marks, headline: bool, sliding: str) -> Row:
     note = row.note
     if row.compared:  # how many are missing stands in the next column already
         note = "; ".join(part for part in note.split("; ") if not part.endswith("runs cannot be compared"))
     else:
         note = note or wording.status(row.status)
+    note = "; ".join(filter(None, (note, sliding)))
 
     def show(value: float | None) -> str:
         if value is None:

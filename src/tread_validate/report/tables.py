@@ -24,6 +24,7 @@ from ..compare.tables import (
     PublishedRow,
     Residual,
     Sensitivity,
+    StatisticsRow,
     read_rows,
 )  # fmt: skip
 from ..errors import InputError
@@ -42,6 +43,7 @@ class Tables:
     errors: tuple[MetricRow, ...]
     ensemble: tuple[Ensemble, ...]
     expected: tuple[ExpectedRow, ...]
+    statistics_rows: tuple[StatisticsRow, ...]
     regression: tuple[Coefficient, ...]
     differences: tuple[Difference, ...]
     residuals: tuple[Residual, ...]
@@ -63,6 +65,16 @@ class Tables:
             if (row.group, row.quantity, row.metric) == (group, quantity, metric) and pair_of(row) == pair:
                 return row
         return None
+
+    def sliding(self, pair: Pair) -> tuple[float, float] | None:
+        """Return the share of the face that slides, reference and prediction, mean over the cases that give both."""
+        both = [
+            (row.reference, row.predicted)
+            for row in self.errors
+            if row.quantity == "slipping_share" and row.metric == "scalar" and pair_of(row) == pair
+        ]
+        known = [(x, y) for x, y in both if x is not None and y is not None]
+        return (sum(x for x, _ in known) / len(known), sum(y for _, y in known) / len(known)) if known else None
 
     def of_pair(self, pair: Pair) -> list[MetricRow]:
         """Return the errors of one source against one other."""
@@ -87,6 +99,7 @@ def read_tables(folder: Path | str) -> Tables:
         peaks=read_rows(place / "peaks.csv", PeakRow),
         errors=read_rows(place / "errors.csv", MetricRow),
         ensemble=read_rows(place / "ensemble.csv", Ensemble),
+        statistics_rows=read_rows(place / "statistics.csv", StatisticsRow),
         expected=read_rows(place / "expected.csv", ExpectedRow),
         regression=read_rows(place / "regression.csv", Coefficient),
         differences=read_rows(place / "regression_differences.csv", Difference),

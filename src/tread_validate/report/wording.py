@@ -158,6 +158,13 @@ def size(value: float | None, error_type: str, unit: str = "") -> str:
     return f"{digits(value, 2)} {_unit(unit)}".strip()
 
 
+def sliding(shares: tuple[float, float] | None) -> str:
+    """Say how much of the face slides, weighted with N: without sliding, T is a matter of stiffness alone."""
+    if shares is None:
+        return "sliding share not known"
+    return f"sliding share of the face {percent(shares[1])}, reference {percent(shares[0])}"
+
+
 def path(key: str) -> str:
     """Name a path of the study."""
     return {"rig": "the two-wheel rig", "simplified": "the tyre belt", "mid_top": "the tyre belt"}.get(

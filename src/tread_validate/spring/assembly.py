@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels import kernel
-from .element import INTEGRALS, PRESSURE
+from .element_record import INTEGRALS, PRESSURE
 
 Array = NDArray[np.float64]
 

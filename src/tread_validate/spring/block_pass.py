@@ -14,7 +14,8 @@ from ..geometry import Path, path_of
 from ..study import Case
 from ..units import MM
 from .assembly import add_element, block_forces
-from .element import COLUMNS, run_element
+from .element import run_element
+from .element_record import COLUMNS
 from .inputs import KernelLaw, Memory, Motion, Rubber
 from .memory import TICKS, memory_of
 from .rubber import law_of, series_of

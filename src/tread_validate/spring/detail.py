@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..study import Case
-from . import element as columns
+from . import element_record as columns
 from .block_pass import BlockPass, prepare
 from .condensed.face_pass import CondensedPass
 from .condensed.roll import FacePass

@@ -17,7 +17,9 @@ from ..errors import InputError
 from ..kernels import kernel
 from ..study import Case
 from .block_pass import SLIP_TOLERANCE, prepare
-from .element import COLUMNS, GONE, PRESSURE, SHEAR, ElementState, advance, touch
+from .element import touch
+from .element_record import COLUMNS, GONE, PRESSURE, SHEAR, ElementState
+from .element_step import advance
 from .inputs import KernelLaw, Memory, Motion, Rubber
 from .kinematics import mount_point
 from .memory import TICKS, memory_of

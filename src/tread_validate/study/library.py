@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..model_file import as_model
 from ..provenance import sha256_file
 from ..yaml_text import read_yaml
-from .compound import Compound, LibraryCompound
+from .compound import Compound, LibraryCompound, PronyFile
+from .shift import OtherShift, Wlf
 
 if TYPE_CHECKING:
     from .compound import NamedCompound
@@ -27,9 +28,25 @@ class _Entry(BaseModel):
     compound: Compound
 
 
+class _OwnShift(BaseModel):
+    """What a material file says of its shift."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True)
+    wlf: Wlf | None = None
+    shift: OtherShift | None = None
+
+
 def named_compound(compound: NamedCompound, root: Path) -> Compound:
-    """Return a compound as it is, or the one of the library that it names; `root` is the study's."""
-    return library_compound(compound.name, root) if isinstance(compound, LibraryCompound) else compound
+    """Return a compound as it is, or the one of the library that it names; `root` is the study's.
+
+    A material file that the study names without a shift brings its own.
+    """
+    if isinstance(compound, LibraryCompound):
+        return library_compound(compound.name, root)
+    if isinstance(compound, PronyFile) and not compound.model_fields_set & {"wlf", "shift"}:
+        path = root / compound.file
+        return _with_own_shift(compound, path, sha256_file(path)) if path.is_file() else compound
+    return compound
 
 
 def library_names(root: Path) -> tuple[str, ...]:
@@ -49,6 +66,15 @@ def library_compound(name: str, root: Path) -> Compound:
 def library_file(name: str, root: Path) -> Path:
     """Return where a compound of the library lies."""
     return root / FOLDER / f"{name}.yaml"
+
+
+@lru_cache(maxsize=64)
+def _with_own_shift(compound: PronyFile, path: Path, digest: str) -> PronyFile:
+    """Read once per content: `digest` is there for the cache."""
+    data = read_yaml(path)
+    own = as_model(data, _OwnShift, path) if isinstance(data, dict) else _OwnShift()
+    given = {name: value for name, value in (("wlf", own.wlf), ("shift", own.shift)) if value is not None}
+    return compound.model_copy(update=given)
 
 
 @lru_cache(maxsize=64)

@@ -10,7 +10,8 @@ import pytest
 
 from tread_validate.errors import InputError
 from tread_validate.material import compound_route, material_schema, prony_series, read_material
-from tread_validate.study import PronyCompound, PronyFile, PronyTerm, SweepFile, Wlf, load_study
+from tread_validate.study import ArrheniusShift, PronyCompound, PronyFile, PronyTerm, SweepFile, Wlf, load_study
+from tread_validate.study.library import named_compound
 
 COMMON = {"origin": "synthetic", "source": "test"}
 
@@ -99,3 +100,20 @@ def test_missing_file_is_refused() -> None:
 
 def test_schema_names_the_series() -> None:
     assert {"long_term_modulus_MPa", "terms", "quality", "wlf"} <= set(material_schema()["properties"])
+
+
+def test_a_material_file_named_without_a_shift_brings_its_own(tmp_path: Path, shipped: Path) -> None:
+    """An Arrhenius law written by fit-prony shifts the study's runs; one that the study gives is compared with it."""
+    text = (shipped / "synthetic_material.yaml").read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if not line.startswith("wlf:")]
+    place = lines.index("data_temperature_degC: 22") + 1
+    lines.insert(place, "shift: {kind: arrhenius, activation_energy_kJ_mol: 95}")
+    (tmp_path / "own.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    plain = PronyFile(kind="prony_file", file="own.yaml", **COMMON)
+    named = named_compound(plain, tmp_path)
+    assert named.time_shift == ArrheniusShift(kind="arrhenius", activation_energy_kJ_mol=95)
+    warm = prony_series(named, tmp_path).at_temperature(60.0, named.time_shift)
+    cold = read_material(tmp_path / "own.yaml").series()
+    assert warm.relaxation_times[0] < 0.02 * cold.relaxation_times[0]
+    with pytest.raises(InputError, match="the law that the data were shifted by: Arrhenius, 95 kJ/mol"):
+        prony_series(plain.model_copy(update={"wlf": Wlf()}), tmp_path)

@@ -12,6 +12,7 @@ import pytest
 
 from tread_validate.compare.tables import Delta, rows_text
 from tread_validate.report import wording
+from tread_validate.report.alternating import alternating_table
 from tread_validate.report.baseline import baseline_section
 from tread_validate.report.cases import case_views, facets, factor_levels
 from tread_validate.report.claims import claims_table
@@ -66,6 +67,19 @@ def test_expected_errors_stand_beside_the_actual_ones(tables: Tables, marks: Mar
     assert {row.cells[-1].note for row in outside} == {"interference"}
     assert {row.cells[2].text for row in outside} == {"–"}
     assert any("changed since the map was made" in getattr(item, "text", "") for item in section.items)
+
+
+def test_where_stick_and_slip_alternate_means_stand_in_place_of_histories(tables: Tables, marks: Marks) -> None:
+    """FE 100 N and the model 95 N in the mean: -5 %; no other case is in the table."""
+    table = alternating_table(tables, marks)
+    assert table is not None
+    assert [row.cells[0].text for row in table.rows] == [tables.cases[0].case_id] * 2
+    texts = [[cell.text.replace(wording.NBSP, " ") for cell in row.cells] for row in table.rows]
+    assert texts[0][1:] == ["100", "\N{MINUS SIGN}40", "50", "3", "2500"]
+    assert "5.0 %)" in texts[1][1]
+    assert "No reliable history in this regime" in table.caption
+    steady = replace(tables, statistics_rows=tuple(row for row in tables.statistics_rows if not row.alternates))
+    assert alternating_table(steady, marks) is None
 
 
 def test_stale_reference_is_not_loaded(tables: Tables, inputs: Any, made_up: ModuleType) -> None:

@@ -99,11 +99,31 @@ def test_pdf_has_few_pages_contents_metadata_and_the_tables_attached(built: Path
     assert facts["Author"].strip().startswith("tread_validate ")
     listed = subprocess.run(["pdfdetach", "-list", file], check=True, capture_output=True, text=True, timeout=60).stdout
     assert {path.name for path in (built / "tables").glob("*.csv")} <= set(re.findall(r": (\S+\.csv)", listed))
-    raw = (built / "report.pdf").read_bytes()
-    assert b"/Outlines" in raw or b"/ObjStm" in raw
+    outline = subprocess.run(
+        ["pdftohtml", "-xml", "-i", "-stdout", file], check=True, capture_output=True, text=True, timeout=60
+    ).stdout
+    marks = re.findall(r'<item page="([0-9]+)">[0-9]+ ([^<]+)</item>', outline)
+    titles = [title for _, title in marks]
+    pages = [int(page) for page, _ in marks]
+    assert titles[:3] == ["How far can the models be trusted?", "Method", "Results"]
+    assert titles[-2:] == ["Inputs and assumptions", "Provenance"]
+    assert pages == sorted(pages)
+    text = subprocess.run(["pdftotext", "-layout", file, "-"], check=True, capture_output=True, text=True, timeout=60)
+    sheets = text.stdout.split("\f")
+    assert all(title in sheets[page - 1] for title, page in zip(titles, pages, strict=True))
     text = subprocess.run(["pdftotext", file, "-"], check=True, capture_output=True, text=True, timeout=60).stdout
     assert "Contents" in text
     assert "Method" in text
+
+
+def test_every_table_has_a_line_of_help(built: Path) -> None:
+    """Exact: a question mark behind every title, with words behind it, folded tables too."""
+    page = (built / "index.html").read_text(encoding="utf-8")
+    folded = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))["tables"]  # type: ignore[union-attr]
+    texts = [page, *(zlib.decompress(base64.b64decode(text), wbits=-15).decode() for text in folded.values())]
+    heads = [head for text in texts for head in re.findall(r'<div class="table-head">.*?</div>', text, re.DOTALL)]
+    assert len(heads) > 10
+    assert [head for head in heads if not re.search(r'<details class="help">.*?<span>[^<]{20,}', head, re.DOTALL)] == []
 
 
 def test_no_cell_of_a_table_is_empty_or_nan(built: Path) -> None:

@@ -13,6 +13,7 @@ from .row import Column, Row, column
 from .runs import AssumedRow, CaseRow, PeakRow
 from .slopes import Coefficient, Difference, Residual
 from .statements import ClaimAssessment, ClaimRow, PublishedRow
+from .statistics import StatisticsRow
 from .text import cell, read_rows, rows_text, table_text, write_rows, write_table
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "Residual",
     "Row",
     "Sensitivity",
+    "StatisticsRow",
     "ToleranceRow",
     "TrendRow",
     "cell",

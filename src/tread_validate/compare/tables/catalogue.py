@@ -8,6 +8,7 @@ from .row import Row
 from .runs import AssumedRow, CaseRow, PeakRow
 from .slopes import Coefficient, Difference, Residual
 from .statements import ClaimRow, PublishedRow
+from .statistics import StatisticsRow
 
 TABLES: dict[str, type[Row]] = {
     kind.table: kind
@@ -17,6 +18,7 @@ TABLES: dict[str, type[Row]] = {
         PublishedRow,
         ToleranceRow,
         PeakRow,
+        StatisticsRow,
         MetricRow,
         ExpectedRow,
         Coefficient,
