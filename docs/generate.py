@@ -16,6 +16,9 @@ from api_page import api_page
 
 from tread_validate.files import write_text
 from tread_validate.study.reference_page import study_reference
+from tread_validate.validity.made_by import record
+from tread_validate.validity.summary import summary
+from tread_validate.validity.table import committed
 from tread_validate.workspace import Workspace
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -150,6 +153,8 @@ def main() -> int:
     OUT.mkdir(parents=True)
     write_text(OUT / "study_file.md", study_reference())
     write_text(OUT / "api.md", api_page())
+    numbers = "# The validity map in numbers\n\n" + summary(committed(), record())
+    write_text(OUT / "validity_map_numbers.md", numbers)
     write_text(OUT / "walkthrough.md", walkthrough())
     write_text(OUT / "validation.md", validation() + "\n")
     shutil.copyfile(ROOT / "CHANGELOG.md", OUT / "changelog.md")

@@ -26,7 +26,7 @@ def expected_section(tables: Tables, marks: Marks) -> Section | None:
         )
     ]
     stale = sorted({row.map_made_by for row in tables.expected if row.map_made_by})
-    items += [Paragraph(f"Of the map: {words}; `make map` runs what is missing.", tone="warn") for words in stale]
+    items += [Paragraph(f"Of the map: {words}; make map runs what is missing.", tone="warn") for words in stale]
     items += [_summary(tables.expected, marks), _cases(tables.expected, marks)]
     return Section("expected", "Expected and actual errors", tuple(items))
 
@@ -48,7 +48,7 @@ def _summary(rows: Sequence[ExpectedRow], marks: Marks) -> Table:
             _mean([row.limit for row in inside]),
             Cell(f"{below} of {len(judged)}" if judged else "–", sort=float(below), tone=_tone(below, len(judged))),
         )
-        group = f"{wording.source(source)} against {wording.source(reference)}"
+        group = f"{wording.source(source)} compared with {wording.source(reference)}"
         lines.append(Row(cells, marks.of(own[0].assumed), group=group))
     columns = (
         Column("Quantity"),
@@ -91,7 +91,7 @@ def _cases(rows: Sequence[ExpectedRow], marks: Marks) -> Table:
             ),
             Cell("outside" if outside else "inside", note=outside, tone="warn" if outside else ""),
         )
-        group = f"{wording.source(row.predicted_source)} against {wording.source(row.reference_source)}"
+        group = f"{wording.source(row.predicted_source)} compared with {wording.source(row.reference_source)}"
         lines.append(Row(cells, marks.of(row.assumed), group=group))
     columns = (
         Column("Case", wide=True),

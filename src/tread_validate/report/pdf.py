@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 import shutil
 import tempfile
 from collections.abc import Sequence
@@ -27,6 +28,7 @@ WIDEST_TABLE = 12  # columns
 DENSE = 6  # columns: with more, numbers stand without their notes
 LONGEST_WORD = 12  # signs: a longer text may be broken
 LONGEST_TABLE = 24  # rows: the attached CSV files hold the rest
+TALLEST = 0.85  # of a figure over the page's width: a taller one is set narrower, so that it fits beside others
 LEFT_OUT = ("claims",)  # sections whose tables are attached, for they have hundreds of rows
 
 
@@ -125,9 +127,16 @@ def _figures(figures: Figures, folder: Path) -> dict[str, Any]:
                 "caption": figure.caption,
                 "marks": in_words(figure.marks),
                 "wide": figure.wide,
+                "width": round(100.0 * min(1.0, TALLEST / _tallness(figure.svg)), 1),
             }
         )
     return {"kind": "figures", "items": found}
+
+
+def _tallness(file: Path) -> float:
+    """Return the height of an SVG over its width."""
+    found = re.search(r'width="([0-9.]+)pt" height="([0-9.]+)pt"', file.read_text(encoding="utf-8"))
+    return float(found[2]) / float(found[1]) if found else TALLEST
 
 
 def _table(table: Table) -> dict[str, Any]:

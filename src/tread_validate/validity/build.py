@@ -23,6 +23,7 @@ from .figures import error_figure, held_out_figure
 from .points import MESHES, MODELS
 from .rule import Rule
 from .store import run_points
+from .summary import summary
 from .table import ERRORS, Point, point_of, table_text
 
 
@@ -58,7 +59,9 @@ def build(base: Case, output: Path, settings: Settings, say: Callable[[str], Non
         say(f"{model}, {quantity}: {found} of the held-out errors below the limit for nine in ten")
     write_text(output / "map.csv", table_text(points))
     counts = {"points": len(points), "refused": refused, "no_reference": weak, "asked_for": settings.runs}
-    write_yaml(output / "map.yaml", {**counts, **_made_by(), **_worth(points, rows)})
+    record = {**counts, **_made_by(), **_worth(points, rows)}
+    write_yaml(output / "map.yaml", record)
+    write_text(output / "summary.md", summary(points, record))
     write_text(output / "held_out.csv", _csv(rows))
     error_figure(points, output / "figures" / "errors")
     if rows:

@@ -17,6 +17,7 @@ from tread_validate.validity.design import RANGES, design
 from tread_validate.validity.groups import coordinates, groups_of
 from tread_validate.validity.points import MESHES, MODELS
 from tread_validate.validity.rule import NEAREST, expected_error
+from tread_validate.validity.summary import summary
 from tread_validate.validity.table import Point, committed, is_reference, point_of, read_table, relative, table_text
 
 COUNT = 96
@@ -174,6 +175,20 @@ def test_coverage_says_its_exact_binomial_interval():
 def test_errors_of_one_size_need_no_widening(cases):
     points = [point(case, normal=0.01, impulse=0.02, tangential=0.03) for case in cases]
     assert factors(points, "condensed") == pytest.approx(dict.fromkeys(("normal", "impulse", "tangential"), 1.0))
+
+
+def test_the_summary_says_median_nine_in_ten_and_worst(cases):
+    """Errors of 1 to 96 %: median 48.5 %, 86.5 % (linear between ranks), 96 %."""
+    points = [point(case, normal=0.01 * (k + 1)) for k, case in enumerate(cases)]
+    counts = {"points": 96, "asked_for": 96, "no_reference": 0, "refused": 0, "commit": "c"}
+    worth = {
+        "fitted": 64, "held_out": 32, "factors": {"condensed": dict.fromkeys(("normal", "impulse", "tangential"), 1.5)},
+        "coverage": {"condensed normal": {"below": 18, "of": 20}},
+    }  # fmt: skip
+    text = summary(points, counts | worth)
+    assert "48.5 / 86.5 / 96 %" in text
+    assert "90 % of 20 (95 % interval 68 to 99 %); factor 1.5" in text
+    assert "before its limits were tried" in summary(points, counts)
 
 
 @pytest.fixture

@@ -59,7 +59,7 @@ def heat(
         axes.grid(visible=False)
         axes.tick_params(length=0)
 
-    size = (1.5 * WIDTH, 0.32 * len(rows) + 0.4)
+    size = (1.5 * WIDTH, 0.245 * len(rows) + 0.4)
     key = f"heat-{pair[0]}-{pair[1]}".replace(":", "-")
     caption = f"Colours from blue, {wording.percent(-limit)}, over white, none, to orange, {wording.percent(limit)}; "
     caption += "one scale for all models."
