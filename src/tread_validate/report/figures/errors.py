@@ -84,6 +84,13 @@ def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: s
         every = np.array([point for found in points.values() for point in found])
         ends = np.array([0.85 * every.min(), 1.18 * every.max()])
         axes.plot(ends, ends, color="#000", lw=0.9, label="_equal")
+        own_scatter = [
+            row.reference_scatter for row in tables.ensemble if (row.group, row.quantity) == ("all", quantity)
+        ]
+        widest = max((value for value in own_scatter if value is not None), default=None)
+        for sign in (-2.0, 2.0) if widest is not None else ():
+            label = "_equality times exp(±2σ) of the reference"
+            axes.plot(ends, ends * np.exp(sign * (widest or 0.0)), color="#57606a", lw=0.8, ls=":", label=label)
         for pair, found in points.items():
             look = looks[pair[0]]
             stats = tables.statistics(pair, quantity)
@@ -113,5 +120,5 @@ def scatter(folder: Path, tables: Tables, looks: Mapping[str, Look], quantity: s
             axis.set_minor_formatter(NullFormatter())
         axes.legend()
 
-    caption = "Line: equal; dashed: bias δ; shaded: bias times exp(±2σ)."
+    caption = "Line: equal; dotted: 2σ of the reference about it; dashed: bias δ; shaded: bias times exp(±2σ)."
     return draw(folder, f"scatter-{quantity.replace('_', '-')}", wording.quantity(quantity), caption, paint, marks)
