@@ -293,3 +293,54 @@ def test_no_text_makes_the_lint_fall_over(data: st.DataObject, texts: dict[str, 
     file = tmp_path / "junk.inp"
     file.write_text("\n".join(lines))
     lint(file)
+
+
+OTHER_PROGRAM = """*NODE, NSET=NALL
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+*ELEMENT, TYPE=C3D8, ELSET=EALL
+1, 1, 2, 3, 4, 5, 6, 7
+8
+*MATERIAL, NAME=M
+*ELASTIC, TYPE=ORTHO
+0., 0., 0., 0., 0., 0., 0., 0.
+0., 0.
+*SOLIDSECTION, ELSET=EALL, MATERIAL=M
+*DESIGNVARIABLES, TYPE=COORDINATE
+NALL
+*INITIAL CONDITIONS, TYPE=FLUID VELOCITY
+NALL, 1, 0.
+*BOUNDARYF
+EALL, S1, 1, 1, 0.
+*STEP, INCF=100
+*STATIC
+*CLOAD
+7, 3, 1., 0.
+"""
+
+
+def test_forms_that_calculix_takes_are_no_errors_in_its_dialect(tmp_path: Path) -> None:
+    """Elements that go on without a comma, longer keywords, its own values, no *END STEP; ABAQUS stops at some."""
+    file = tmp_path / "other.inp"
+    file.write_text(OTHER_PROGRAM)
+    assert [str(one) for one in lint(file, "calculix") if one.severity == "error"] == []
+    assert {"element-nodes", "parameter-value", "step-order"} <= {one.rule for one in lint(file)}
+    file.write_text(OTHER_PROGRAM.replace("*MATERIAL", "*MATERAIL"))
+    assert "unknown-keyword" in {one.rule for one in lint(file, "calculix")}
+
+
+def test_element_line_that_ends_with_a_comma_goes_on_whatever_its_length(tmp_path: Path) -> None:
+    file = tmp_path / "beams.inp"
+    nodes = "".join(f"{n}, {n % 2}., {n // 2}., 0.\n" for n in range(1, 5))
+    head = f"*HEADING\nplate\n*NODE\n{nodes}*ELEMENT, TYPE=CPS4, ELSET=P\n7, 1, 3, 4,\n2\n"
+    file.write_text(
+        head
+        + "*SOLID SECTION, ELSET=P, MATERIAL=M\n1.,\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.3\n*STEP\n*STATIC\n*END STEP\n"
+    )
+    assert "field-count" not in {one.rule for one in lint(file)}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -20,6 +21,8 @@ from .syntax import check_syntax
 __all__ = ["FORMATS", "Dialect", "Finding", "Rule", "catalogue", "find_rule", "formatted", "lint"]
 
 Dialect = Literal["abaqus", "calculix"]
+LAST_COUNTS = frozenset({"duplicate-name", "two-sections"})
+"""Rules about what is given twice: CalculiX goes on with the later one."""
 
 
 def lint(
@@ -61,6 +64,8 @@ def lint(
             check_contact(deck, names, findings)
         else:
             check_steps(deck, findings)
+    if dialect == "calculix":
+        findings[:] = [replace(one, severity="warning") if one.rule in LAST_COUNTS else one for one in findings]
     kept = [one for one in findings if (not chosen or one.rule in chosen) and one.rule not in left]
     return unique(kept)
 

@@ -181,12 +181,13 @@ def _check_material(deck: Deck, names: Names, name: str, block: KeywordBlock, us
         findings.add(block, "no-density", f"material {name} has no *DENSITY, which *DYNAMIC, EXPLICIT needs")
     if used and names.mechanical and not LAWS & set(options) and not names.gaps and not _unknown(options):
         findings.add(block, "no-stiffness", f"material {name} has no *ELASTIC or *HYPERELASTIC")
-    for keyword in ("DENSITY", "ELASTIC"):
+    isotropic = "ELASTIC" in options and (options["ELASTIC"].parameters.get("TYPE") or "ISOTROPIC") == "ISOTROPIC"
+    for keyword in ("DENSITY", *(("ELASTIC",) if isotropic else ())):
         for line in options[keyword].data[:1] if keyword in options else ():
             value = line.fields[0]
             if is_number(value) and number(value) <= 0.0 and (keyword == "ELASTIC" or names.explicit):
                 findings.add(line, "material-value", f"*{keyword} {value}: expected > 0")
-    if "ELASTIC" in options and (options["ELASTIC"].parameters.get("TYPE") or "ISOTROPIC") == "ISOTROPIC":
+    if isotropic:
         for line in options["ELASTIC"].data:
             ratio = line.fields[1] if len(line.fields) > 1 else "0"
             if not is_number(ratio):

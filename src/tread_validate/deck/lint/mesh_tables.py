@@ -91,8 +91,11 @@ def _node_lines(block: KeywordBlock, findings: Findings) -> tuple[FloatArray, In
     return np.array(places, dtype=np.float64).reshape(-1, 4), np.array(rows, dtype=np.int64)
 
 
-def read_elements(deck: Deck, findings: Findings) -> list[ElementTable]:
-    """Return the elements of every ``*ELEMENT``; misspelt types, wrong counts and labels given twice are reported."""
+def read_elements(deck: Deck, findings: Findings, dialect: str = "abaqus") -> list[ElementTable]:
+    """Return the elements of every ``*ELEMENT``; misspelt types, wrong counts and labels given twice are reported.
+
+    CalculiX reads on until it has all nodes, with a comma at the end of a line or without, and passes over more.
+    """
     parts: list[ElementTable] = []
     for block in deck.named("ELEMENT"):
         kind = (block.parameters.get("TYPE") or "").upper()
@@ -111,8 +114,7 @@ def read_elements(deck: Deck, findings: Findings) -> list[ElementTable]:
         table = integer_rows(block.data, count + 1)
         rows = np.arange(len(block.data), dtype=np.int64)
         if table is None:
-            check_lines(block, findings)
-            table, rows = _element_lines(block, kind, count + 1, findings)
+            table, rows = _element_lines(block, kind, count + 1, findings, dialect)
         parts.append(ElementTable(block, kind, table[:, 0], table[:, 1:], rows))
     _check_repeated_elements(parts, deck, findings)
     return parts
@@ -138,7 +140,9 @@ def _check_repeated_elements(parts: list[ElementTable], deck: Deck, findings: Fi
         findings.add(line(second), "duplicate-element", text)
 
 
-def _element_lines(block: KeywordBlock, kind: str, count: int, findings: Findings) -> tuple[IntArray, IntArray]:
+def _element_lines(
+    block: KeywordBlock, kind: str, count: int, findings: Findings, dialect: str
+) -> tuple[IntArray, IntArray]:
     """Read element lines one at a time, joining those that go on after a comma."""
     table: list[list[int]] = []
     rows: list[int] = []
@@ -152,8 +156,12 @@ def _element_lines(block: KeywordBlock, kind: str, count: int, findings: Finding
             continue
         start = start if pending else row
         pending += map(int, fields)
-        if len(pending) < count and line.text.endswith(","):
+        if len(pending) < count and (line.text.endswith(",") or dialect == "calculix"):
             continue
+        if len(pending) > count and dialect == "calculix":
+            text = f"{kind} has {count - 1} nodes, this line gives {len(pending) - 1}: the rest is passed over"
+            findings.add(block.data[start], "element-nodes", text, "warning")
+            pending = pending[:count]
         if len(pending) == count:
             table.append(pending)
             rows.append(start)

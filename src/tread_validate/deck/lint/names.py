@@ -106,7 +106,7 @@ def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
         first = next(deck.named(*made))
         findings.add(first, "not-checked", f"*{first.keyword}: nodes and elements it makes are not followed")
     names.node_ids, names.coordinates = read_nodes(deck, findings)
-    names.elements = read_elements(deck, findings)
+    names.elements = read_elements(deck, findings, dialect)
     for keyword, parameter in NAMED.items():
         table = names.named.setdefault(keyword, {})
         for block in deck.named(keyword):

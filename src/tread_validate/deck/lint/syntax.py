@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from ...inp import DataLine, Deck, KeywordBlock, Lines
 from ...inp.deck import to_float
 from ...inp.parameters import MARK
 from ...inp.table import all_numbers
 from ...inp.vocabulary import Keyword, keywords
-from .findings import Findings
+from .findings import Finding, Findings
 from .spelling import misspelt
 
 LONGEST_LINE = 256
@@ -49,19 +50,27 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
             _unknown(block, vocabulary, findings, dialect)
         else:
             _check_place(block, inside, steps, findings, dialect)
-            _check_block(deck.written, position, known, vocabulary, findings)
+            own: Findings = Findings()
+            _check_block(deck.written, position, known, vocabulary, own)
+            findings += own if dialect == "abaqus" else map(_of_other_dialect, own)
         _check_letters(block, findings)
         if block.keyword == "END STEP":
             if not inside:
                 findings.add(block, "step-order", "*END STEP without a *STEP")
             inside = False
     if inside and opened is not None:
-        findings.add(opened, "step-order", "this *STEP has no *END STEP")
+        severity = "error" if dialect == "abaqus" else "warning"  # CalculiX takes the end of the file for it
+        findings.add(opened, "step-order", "this *STEP has no *END STEP", severity)  # type: ignore[arg-type]
     if deck.written and steps == 0:
         findings.add(deck.written[-1], "no-step", "the deck has no *STEP")
 
 
 def _unknown(block: KeywordBlock, vocabulary: Mapping[str, Keyword], findings: Findings, dialect: str) -> None:
+    squeezed = block.keyword.replace(" ", "")
+    if dialect == "calculix" and any(squeezed.startswith(name.replace(" ", "")) for name in vocabulary):
+        # CalculiX compares first letters: a longer word is its keyword, or one of its own (*BOUNDARYF)
+        findings.add(block, "not-checked", f"*{block.keyword} begins with a keyword: not checked")
+        return
     near = misspelt(block.keyword, vocabulary)
     if near is not None:
         findings.add(block, "unknown-keyword", f"*{block.keyword} is no keyword; did you mean *{near}?")
@@ -69,6 +78,15 @@ def _unknown(block: KeywordBlock, vocabulary: Mapping[str, Keyword], findings: F
         findings.add(block, "not-checked", f"*{block.keyword} is a keyword of CalculiX: --dialect calculix")
     else:
         findings.add(block, "not-checked", f"*{block.keyword} is not in the lint's vocabulary: not checked")
+
+
+def _of_other_dialect(finding: Finding) -> Finding:
+    """Return a finding on the form of a block as it counts where the vocabulary is not that of the program."""
+    if finding.rule in ("parameter-value", "unknown-parameter"):
+        return replace(finding, rule="not-checked", severity="note")
+    if finding.rule in ("field-count", "data-lines") and finding.severity == "error":
+        return replace(finding, severity="warning")
+    return finding
 
 
 def _check_place(block: KeywordBlock, inside: bool, steps: int, findings: Findings, dialect: str) -> None:
