@@ -29,11 +29,15 @@ def command(
 
     from ..compare import MetricRow, compare
     from ..compare.tables import rows_text
+    from ..errors import InputError
     from ..files import write_text
     from ..history import History
 
     a, b = History.read_csv(reference), History.read_csv(predicted)
-    name = case_id or a.provenance.get("case_id", "") or b.provenance.get("case_id", "")
+    cases = [name for each in (a, b) if (name := each.provenance.get("case_id", ""))]
+    if not case_id and len(set(cases)) > 1:
+        raise InputError("compare", f"histories of {cases[0]} and {cases[1]}", "two of one case, or --case NAME")
+    name = case_id or (cases or [""])[0]
     rows = compare(
         a,
         b,

@@ -331,3 +331,17 @@ def test_a_wrong_table_of_peaks_is_refused(
     (tmp_path / "peaks.csv").write_text(text, encoding="utf-8")
     assert tread_validate(["regress", str(tmp_path / "peaks.csv")]) == 2
     assert match in capsys.readouterr().err
+
+
+def test_histories_of_two_cases_are_not_compared_without_a_word(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Both files carry their case; a name for the pair says that it is meant."""
+    time = np.linspace(-1e-3, 11e-3, 200)
+    force = np.where((time > 0) & (time < 10e-3), 100.0 * np.sin(np.pi * time / 10e-3), 0.0)
+    for name in ("a", "b"):
+        History.of(time, force, 0.2 * force, 0.0 * force, {"case_id": name}).write_csv(tmp_path / f"{name}.csv")
+    pair = ["compare", str(tmp_path / "a.csv"), str(tmp_path / "b.csv")]
+    assert tread_validate(pair) == 2
+    assert "histories of a and b" in capsys.readouterr().err
+    assert tread_validate([*pair, "--case", "both"]) == 0
