@@ -134,13 +134,7 @@ class Blocks:
 
 
 def pack(model: Model, duration: float) -> Blocks:
-    """Build the blocks of a model for a run of `duration`.
-
-    Raises
-    ------
-    InputError
-        An element of no or negative volume.
-    """
+    """Build the blocks of a model for a run of `duration`; raises `InputError` for an element without volume."""
     mesh = model.mesh
     corners = mesh.coordinates[mesh.connectivity]
     volume, gradients = mean_gradients(corners)
