@@ -103,8 +103,6 @@ def build(
     if "compatibility" in parts:
         say("rate and temperature")
         put(Compatibility, compatibility.compatibility_rows(cases))
-        if not tables[Compatibility.table]:
-            say("no coefficients: they need a rectangular block on a rig, every speed at two temperatures or more")
         figures.compatibility_figure(tables["compatibility"], drawn / "compatibility")
     if "sobol" in parts:
         say("Sobol indices")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,7 +12,7 @@ from scipy.optimize import brentq, minimize
 from ..material import prony_series, relative_shift
 from ..study import Case
 from ..units import PERCENT
-from .rate_response import LARGEST, Coefficients, RigTable, rig_table
+from .rate_response import Coefficients, RigTable, rig_table
 from .tables import Compatibility
 
 Array = NDArray[np.float64]
@@ -30,12 +29,10 @@ STARTS = 8
 def compatibility_rows(cases: Sequence[Case], seed: int = 2010) -> list[dict[str, Any]]:
     """Return the published pair, power laws, the study's compound, bell spectra and a search over all spectra.
 
-    `cases` are a study's; the rectangular rig runs among them are used: a full grid of at
-    least two temperatures and two speeds, else there are no rows. The rows' columns are those of `Compatibility`.
+    `cases` are a study's; the rectangular rig runs among them are used. The rows' columns are those of `Compatibility`.
     """
-    rig = [case for case in cases if case.is_rig and case.block.shape == "rectangle" and case.interference < LARGEST]
-    levels = [len({getattr(case, key) for case in rig}) for key in ("temperature", "speed", "interference")]
-    if min(levels[:2]) < 2 or len(rig) != math.prod(levels):
+    rig = [case for case in cases if case.is_rig and case.block.shape == "rectangle"]
+    if not rig:
         return []
     compound = rig[0].compound
     law, data = compound.time_shift, compound.data_temperature_degC

@@ -96,16 +96,12 @@ class RigTable:
         return Coefficients(a_v.ravel(), (ratio - 1.0) / span, a_v_gradient.reshape(-1, terms), ratio_g / span)
 
 
-LARGEST = 0.25e-3
-"""Interference below which runs are used, m: the paper leaves 0.3 mm out."""
-
-
 def rig_table(cases: Sequence[Case], times: Array, law: TimeShift, reference: float) -> RigTable:
     """Return the table of rig `cases` (one shape) for terms of relaxation `times` (s) at `reference` (degC).
 
     Cases at 0.3 mm are left out, as the paper does.
     """
-    cases = [case for case in cases if case.interference < LARGEST]
+    cases = [case for case in cases if case.interference < 0.25e-3]
     speeds = sorted({case.speed for case in cases})
     interferences = sorted({case.interference for case in cases})
     temperatures = sorted({case.temperature for case in cases})

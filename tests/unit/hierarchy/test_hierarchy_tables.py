@@ -107,13 +107,6 @@ def reference(case, history):
     }
 
 
-@pytest.mark.parametrize("key", ["temperature", "speed"])
-def test_a_study_of_one_temperature_or_one_speed_has_no_pair_of_coefficients(cases, key):
-    """Nothing to compare with, and no division by a range of nothing."""
-    rig = [case for case in cases if case.is_rig]
-    assert compatibility.compatibility_rows([case for case in rig if getattr(case, key) == getattr(rig[0], key)]) == []
-
-
 def test_a_level_against_itself_has_no_error_and_meets_every_target(belt):
     """Reference = the condensed face's own history: errors 0, scores 1."""
     rows = pareto.case_rows([belt], reference(belt, run(belt, "condensed_coarse")), "embedded", ("condensed_coarse",))
