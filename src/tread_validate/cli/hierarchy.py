@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from ..units import MM
+
+if TYPE_CHECKING:
+    from ..study import Case
 
 
 def command(
@@ -49,7 +56,14 @@ def command(
     place = Workspace(loaded.model.name)
     output = output or place.hierarchy
     folders = Folders(references, decks or place.decks, output, models or place.results / "models")
-    tables = build(loaded, folders, typer.echo, samples, part or PARTS)
+    parts = list(part or PARTS)
+    if "compatibility" in parts and not _gives_coefficients(loaded.cases()):
+        parts.remove("compatibility")
+        typer.echo(
+            "no compatibility: it needs a rectangular block on a rig, below 0.25 mm, "
+            "every speed at every temperature, two of both or more"
+        )
+    tables = build(loaded, folders, typer.echo, samples, parts)
     record = {
         "study": loaded.model.name,
         "study_digest": conditions_digest(loaded.cases()),
@@ -67,3 +81,10 @@ def command(
         nothing = seconds is None and error is None
         typer.echo(f"{row['level']}, {row['group']}: " + (row["note"] if nothing and row["note"] else cost + told))
     typer.echo(f"tables and figures in {output}")
+
+
+def _gives_coefficients(cases: Sequence[Case]) -> bool:
+    """Whether a_v and a_theta follow from the rig runs that the compatibility of both is asked of: a full grid."""
+    rig = [case for case in cases if case.is_rig and case.block.shape == "rectangle" and case.interference < 0.25 * MM]
+    levels = [len({getattr(case, key) for case in rig}) for key in ("temperature", "speed", "interference")]
+    return min(levels[:2]) > 1 and len(rig) == math.prod(levels)

@@ -2,6 +2,8 @@
 
 import csv
 
+import pytest
+
 from tread_validate.cli.app import run
 
 
@@ -24,3 +26,14 @@ def test_an_unknown_part_is_wrong_input_by_name(paper_study, tmp_path, capsys):
     assert run(["hierarchy", str(paper_study), "--part", "tea", "-o", str(tmp_path)]) == 2
     assert "tea" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("change", [{"runs.0.temperature_degC": [22.0]}, {"runs.0.speed_rpm": [300.0]}])
+def test_a_study_of_one_temperature_or_one_speed_is_told_why_it_has_no_coefficients(
+    change, altered_study, tmp_path, capsys
+):
+    """In place of a division by a range of nothing."""
+    study = altered_study(change)
+    assert run(["hierarchy", str(study), "--part", "compatibility", "-o", str(tmp_path / "out")]) == 0
+    assert "no compatibility: it needs" in capsys.readouterr().out
+    assert not (tmp_path / "out" / "compatibility.csv").exists()
