@@ -30,6 +30,9 @@ HELP = {
     "provenance-sources": "Runs by source and state; only current ones are compared.",
     "provenance-packages": "Versions with which the tables were made.",
     "provenance-inputs": "A file with another digest is another study.",
+    "alternating": "Compare means and scatter; a peak of such a run is one of many, and no assessment depends on it.",
+    "hierarchy-compounds": "Each compound's own moduli at the runs' frequencies, and the models' errors with it.",
+    "hierarchy-compound_dependence": "How far the assessment of a model hangs on the compound that the study assumes.",
     "quality": "Residuals of the fit; the compound's section says what they are worth for the runs of this study.",
 }
 
