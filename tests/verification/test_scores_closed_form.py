@@ -209,3 +209,14 @@ def test_bias_counts_every_point(bad: float | None) -> None:
     """A missing or non-positive point is an error, never left out."""
     with pytest.raises(InputError, match="every point counts"):
         bias_and_scatter([1.0, 2.0], [1.0, bad], 0.0)
+
+
+def test_time_of_a_flat_peak_does_not_hang_on_round_off() -> None:
+    """A trapezoid of N, flat for 2 ms about 5 ms, is at its peak at 5 ms, whichever sample of the top is the largest."""
+    time = np.linspace(0.0, 0.01, 1001)
+    force = np.interp(time, [0.0, 0.004, 0.006, 0.01], [0.0, 100.0, 100.0, 0.0])
+    for largest in (400, 500, 600):
+        lifted = force.copy()
+        lifted[largest] += 1e-9
+        history = History(time, lifted, np.zeros_like(time), np.zeros_like(time), {})
+        assert scalars(history).time_of_peak_normal_force == pytest.approx(0.005, abs=1e-9)

@@ -9,6 +9,7 @@ import numpy as np
 
 from .contact import Contact
 
+NEAR_PEAK = 1e-3  # of the peak: what counts as its flat top
 SIGN_SHARE = 0.01  # a tangential force below this share of its largest magnitude has no sign
 LATE_SHARE = 0.10  # the last part of the contact in which a change of sign is looked for
 
@@ -47,8 +48,20 @@ def duration(contact: Contact) -> float:
 
 
 def time_of_peak(contact: Contact) -> float:
-    """Return when N is largest, s, on the history's clock (t = 0 at first contact)."""
-    return float(contact.history.time[int(np.argmax(contact.history.normal_force))])
+    """Return the middle of the time in which N is within 0.1 % of its peak, s, on the history's clock.
+
+    t = 0 at first contact. Which sample of a flat top is the largest is round-off, and differs between processors.
+    """
+    time, force = contact.history.time, contact.history.normal_force
+    level = (1.0 - NEAR_PEAK) * float(force.max())
+    above = np.flatnonzero(force >= level)
+    first, last = int(above[0]), int(above[-1])
+    begin, end = float(time[first]), float(time[last])
+    if first > 0:
+        begin = float(np.interp(level, force[first - 1 : first + 1], time[first - 1 : first + 1]))
+    if last + 1 < time.size:
+        end = float(np.interp(-level, -force[last : last + 2], time[last : last + 2]))
+    return 0.5 * (begin + end)
 
 
 def peak_ratio(contact: Contact) -> float:

@@ -82,6 +82,8 @@ class MetricRow(Row):
 
     def noise(self, found: Column) -> Noise:
         """Return the noise of the quantity, or of the score, for its values and for the error made of them."""
+        if found.name in ("u_numerical", "uncertainty") and self.metric == "scalar" and self.predicted:
+            return self._noise_of_a_part(2.0 if found.name == "uncertainty" else 1.0)
         if found.name not in ("reference", "predicted", "error"):
             return found.noise
         if self.metric != "scalar":
@@ -92,6 +94,11 @@ class MetricRow(Row):
             return own
         # a relative error moves as far as its prediction, over the reference
         return Noise(own.relative, own.relative + own.absolute / abs(self.reference))
+
+    def _noise_of_a_part(self, coverage: float) -> Noise:
+        """Return the noise of what a finer pass changes: a small difference of two values, each with its own noise."""
+        value = 1.0 if self.error_type == "relative" else abs(self.predicted or 0.0)
+        return Noise(PART.relative, PART.absolute + coverage * SCALAR[self.quantity].noise.relative * value)
 
     def of_run(self, status: str, note: str) -> MetricRow:
         """Return the row with the reference's status, where that is not current."""
