@@ -212,7 +212,7 @@ def test_bias_counts_every_point(bad: float | None) -> None:
 
 
 def test_time_of_a_flat_peak_does_not_hang_on_round_off() -> None:
-    """A trapezoid of N, flat for 2 ms about 5 ms, is at its peak at 5 ms, whichever sample of the top is the largest."""
+    """A trapezoid of N, flat for 2 ms about 5 ms, peaks at 5 ms, whichever sample of the top is the largest."""
     time = np.linspace(0.0, 0.01, 1001)
     force = np.interp(time, [0.0, 0.004, 0.006, 0.01], [0.0, 100.0, 100.0, 0.0])
     for largest in (400, 500, 600):
