@@ -80,6 +80,11 @@ def used_blocks(source: Path) -> set[str]:
     return {line[1:].partition(" ")[0] for line in read_text(source).splitlines() if line.startswith("@")}
 
 
+def check_block(blocks: Path, name: str) -> None:
+    """Raise `InputError` for a block that is missing or altered."""
+    _block(blocks / f"{name}.gz", name)
+
+
 def _block(file: Path, name: str) -> tuple[str, ...]:
     try:
         data = gzip.decompress(file.read_bytes())

@@ -19,7 +19,7 @@ from ..inp import DeckFiles, Problem, agree, differences
 from ..provenance import sha256_file
 from ..source_code import PARTS, UNKNOWN, code_digest
 from ..yaml_text import read_mapping
-from .deck_store import read_problem
+from .deck_store import check_block, read_problem, used_blocks
 from .mesh_errors import MeshErrors, is_error
 
 Status = Literal["current", "other_code", "stale", "missing", "corrupt"]
@@ -106,6 +106,7 @@ class FeStore:
     def __init__(self, references: Path | str) -> None:
         self.root = Path(references) / "fe"
         self._entries: dict[str, tuple[Entry, ...]] = {}
+        self._sound_blocks: set[str] = set()
 
     @property
     def blocks(self) -> Path:
@@ -135,6 +136,7 @@ class FeStore:
     def forget(self) -> None:
         """Read the records anew when next asked for."""
         self._entries.clear()
+        self._sound_blocks.clear()
 
     def find(self, engine: str, case_id: str, today: DeckFiles | None) -> Reference:
         """Return the run of the problem that a deck poses; never raises for what lies in a run's folder.
@@ -228,15 +230,19 @@ class FeStore:
         return Reference(case_id, engine, status, reason, history, entry.record, digest, entry.folder)
 
     def _content_fault(self, entry: Entry) -> str:
-        """Return what is wrong with the history of a sound record, in one line; empty where nothing is."""
+        """Return what is wrong with history or deck of a sound record, in one line; empty where nothing is."""
         try:
+            self._filed(entry)
+            for name in used_blocks(entry.folder / "deck.txt") - self._sound_blocks:
+                check_block(self.blocks, name)
+                self._sound_blocks.add(name)
             if sha256_file(entry.history_file) != entry.record["history_sha256"]:
                 return "history.csv: checksum is not that of record.yaml"
             History.read_csv(entry.history_file)
         except InputError as error:
             return one_line(str(error))
         except OSError as error:
-            return f"history.csv: {error.strerror}"
+            return f"{Path(error.filename or 'history.csv').name}: {error.strerror}"
         return ""
 
     def _entry(self, folder: Path, engine: str) -> Entry:
