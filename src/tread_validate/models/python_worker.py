@@ -86,6 +86,7 @@ def _message(error: Exception) -> str:
 
 
 def _say(stream: TextIO, answer: dict[str, Any]) -> None:
+    sys.stdout.flush()  # the log is whole when the answer is there: the parent may end this process at any time after
     stream.write(json.dumps(answer) + "\n")
     stream.flush()
 

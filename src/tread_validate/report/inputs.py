@@ -31,7 +31,7 @@ def inputs_section(tables: Tables, marks: Marks) -> Section:
             Cell(mark.code),
             Cell(name),
             Cell(mark.origin),
-            Cell(source.removeprefix(": ")),
+            Cell(source.removeprefix(": ") or "no run of this study takes it"),
             Cell("–" if cases is None else f"{cases}", sort=cases),
         )
         rows.append(Row(cells, key=f"assumption-{mark.code}"))
