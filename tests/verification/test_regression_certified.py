@@ -172,27 +172,38 @@ def test_published_means_are_compared_by_welch() -> None:
     assert found.test == "Welch t"
 
 
+def with_sets(source: str, values: np.ndarray[tuple[int], np.dtype[np.float64]]) -> list[Coefficient]:
+    sets = [
+        Coefficient(source, "rectangle", "a_v", f"set {i}", float(v), "s/m", None, "", None, None, None, None, 0.95,
+                    4, "current")
+        for i, v in enumerate(values)
+    ]  # fmt: skip
+    whole = Coefficient(
+        source, "rectangle", "a_v", "mean", float(values.mean()), "s/m", float(values.std(ddof=1)), "sd", None,
+        None, None, None, 0.95, 4, "current",
+    )  # fmt: skip
+    return [*sets, whole]
+
+
 def test_two_sources_with_the_same_sets_are_compared_set_by_set() -> None:
     """Paired: differences 0.001 -+ scatter over four sets; scipy's paired test gives the same p."""
     base = np.array([0.044, 0.043, 0.034, 0.032])
     other = base + np.array([0.0011, 0.0009, 0.0012, 0.0008])
 
-    def rows(source: str, values: np.ndarray[tuple[int], np.dtype[np.float64]]) -> list[Coefficient]:
-        sets = [
-            Coefficient(source, "rectangle", "a_v", f"set {i}", float(v), "s/m", None, "", None, None, None, None, 0.95,
-                        4, "current")
-            for i, v in enumerate(values)
-        ]  # fmt: skip
-        whole = Coefficient(
-            source, "rectangle", "a_v", "mean", float(values.mean()), "s/m", float(values.std(ddof=1)), "sd", None,
-            None, None, None, 0.95, 4, "current",
-        )  # fmt: skip
-        return [*sets, whole]
-
-    (found,) = differences([*rows("spring:a", base), *rows("spring:b", other)])
+    (found,) = differences([*with_sets("spring:a", base), *with_sets("spring:b", other)])
     assert found.test == "paired t"
     assert found.p_value == pytest.approx(stats.ttest_rel(other, base).pvalue, rel=1e-9)
     assert found.significant is True
+
+
+@pytest.mark.parametrize("digits", [7, 17])
+def test_round_off_between_two_sources_is_no_scatter_in_seven_digits_or_in_all(digits: int) -> None:
+    """One model is another times a constant: equal slopes but for 1e-12. No test, whichever digits were kept."""
+    base = np.array([0.0440123456789, 0.0431, 0.0342, 0.0323])
+    other = base * (1.0 + 1e-12 * np.array([3.0, -1.0, 2.0, -4.0]))
+    kept = [np.array([float(f"{value:.{digits}g}") for value in values]) for values in (base, other)]
+    (found,) = differences([*with_sets("spring:a", kept[0]), *with_sets("spring:b", kept[1])])
+    assert (found.p_value, found.status, found.note) == (None, "undefined", "no scatter between the sets")
 
 
 def test_one_speed_is_no_line() -> None:

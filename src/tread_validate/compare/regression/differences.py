@@ -12,6 +12,9 @@ from scipy import stats
 from ..tables import Coefficient, Difference
 from .line import LEVEL
 
+RESOLUTION = 1e-6
+"""Of a coefficient: what its printed digits and other processors leave open. Less scatter than this is round-off."""
+
 
 def differences(rows: Sequence[Coefficient], level: float = LEVEL) -> tuple[Difference, ...]:
     """Compare the mean coefficients of every pair of sources, shape by shape.
@@ -93,7 +96,7 @@ def _compare(
             return replace(blank, note="no spread in either")
         freedom = (va + vb) ** 2 / (va**2 / (a.n - 1) + vb**2 / (b.n - 1))
         error, test = math.sqrt(va + vb), "Welch t"
-    if error == 0.0:
+    if error <= RESOLUTION * max(abs(a.value), abs(b.value)):
         return replace(blank, test=test, note="no scatter between the sets")
     half = float(stats.t.ppf(0.5 + 0.5 * level, freedom)) * error
     p = float(2.0 * stats.t.sf(abs(difference) / error, freedom))
