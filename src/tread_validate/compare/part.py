@@ -55,7 +55,7 @@ class Part:
 
     def coefficients(self, found: Iterable[Coefficient], order: Sequence[str]) -> list[Coefficient]:
         """Return coefficients that were found and the accepted ones of other models, by their sources' order."""
-        place = {source: number for number, source in enumerate(order)}
+        place = {source: number for number, source in enumerate(dict.fromkeys(order))}
         return sorted([*found, *self.others], key=lambda row: place.get(row.source, -1))
 
     def holds(self, table: str, cells: Mapping[str, str]) -> bool:
