@@ -13,8 +13,8 @@ from ..tables import Coefficient, Difference
 from .line import LEVEL
 
 RESOLUTION = 1e-4
-"""Of a coefficient. Its digits, and other processors, leave 5e-6 open; a p value is determined where scatter stands clear
-of that, and is not given where it does not."""
+"""Of a coefficient. Its digits, and other processors, leave 5e-6 open; a p value is determined where scatter stands
+clear of that, and is not given where it does not."""
 
 
 def differences(rows: Sequence[Coefficient], level: float = LEVEL) -> tuple[Difference, ...]:
