@@ -19,7 +19,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-import llvmlite  # type: ignore[import-untyped]
+import llvmlite  # type: ignore[import-untyped]  # numba and llvmlite have no types
 import numba
 import numpy as np
 from numba.core import config, serialize
@@ -106,7 +106,7 @@ class KernelCache:
 
     def save(self, key: object, data: Any) -> None:
         """File `data`, atomically, and drop the files of digests long gone."""
-        write_bytes(self._path(key), serialize.dumps((key, data)))  # type: ignore[no-untyped-call]
+        write_bytes(self._path(key), serialize.dumps((key, data)))  # type: ignore[no-untyped-call]  # numba and llvmlite have no types
         by_age = sorted(self.folder.glob(f"{self.base}.*.nbx"), key=_changed, reverse=True)
         kept = list(dict.fromkeys(path.name.split(".")[-3] for path in by_age))[:KEPT]
         for path in by_age:

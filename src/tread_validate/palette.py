@@ -22,15 +22,15 @@ class Look:
 
 _REFERENCE = (
     Look(BLACK, "-", "solid", "s", "square"),
-    Look(GREY, (0, (6, 2)), "longdash", "D", "diamond"),  # type: ignore[arg-type]
-    Look(SKY, (0, (6, 2)), "longdash", "P", "cross"),  # type: ignore[arg-type]
+    Look(GREY, (0, (6, 2)), "longdash", "D", "diamond"),  # type: ignore[arg-type]  # matplotlib's dashes are wider than its types
+    Look(SKY, (0, (6, 2)), "longdash", "P", "cross"),  # type: ignore[arg-type]  # matplotlib's dashes are wider than its types
 )
 _MODEL = (
     Look(BLUE, "--", "dash", "o", "circle"),
     Look(VERMILION, "-.", "dashdot", "^", "triangle-up"),
     Look(GREEN, ":", "dot", "v", "triangle-down"),
-    Look(PURPLE, (0, (3, 1, 1, 1, 1, 1)), "longdashdot", "X", "x"),  # type: ignore[arg-type]
-    Look(ORANGE, (0, (1, 1)), "dot", "*", "star"),  # type: ignore[arg-type]
+    Look(PURPLE, (0, (3, 1, 1, 1, 1, 1)), "longdashdot", "X", "x"),  # type: ignore[arg-type]  # matplotlib's dashes are wider than its types
+    Look(ORANGE, (0, (1, 1)), "dot", "*", "star"),  # type: ignore[arg-type]  # matplotlib's dashes are wider than its types
 )
 
 

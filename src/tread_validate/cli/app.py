@@ -145,7 +145,7 @@ def run(arguments: Sequence[str]) -> int:
     except TreadValidateError as error:
         return _say(error, error.exit_code)
     except BrokenPipeError:  # the reader of our output, such as `head`, has seen enough
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  # open until the process ends
         return EXIT_DONE
     except OSError as error:
         return _say(f"{error.filename or 'file'}: {error.strerror or error}", EXIT_INPUT)

@@ -40,7 +40,7 @@ def command(
     ):
         if value not in known:
             raise InputError(option, value, "one of " + ", ".join(known))
-    options = Options(force_unit, time_unit, clock, force_on, case_id, solver_version)  # type: ignore[arg-type]
+    options = Options(force_unit, time_unit, clock, force_on, case_id, solver_version)  # type: ignore[arg-type]  # typer gives plain text; Options checks it
     imported = import_history(source, deck, user, tangential=tangential, options=options)
     path = file_history(imported, store, DeckFiles(deck, user), replace=replace)
     for check in imported.record["checks"]:

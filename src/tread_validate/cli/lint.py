@@ -45,7 +45,7 @@ def command(
         raise InputError("lint --format", one_line(form, 40), ", ".join(FORMATS))
     found = []
     for file in files:
-        mine = lint(file, dialect, select or (), ignore or ())  # type: ignore[arg-type]
+        mine = lint(file, dialect, select or (), ignore or ())  # type: ignore[arg-type]  # typer gives plain text; lint checks it
         found += [replace(one, file=str(file.parent / one.file)) for one in mine] if form != "text" else mine
         if form == "text":
             for finding in mine:

@@ -28,7 +28,7 @@ def within(name: str) -> Callable[[typer.Context, typer.CallbackParam, Any], Any
                 bounded(float(number), name, option)
         return value
 
-    check.quantity = name  # type: ignore[attr-defined]
+    check.quantity = name  # type: ignore[attr-defined]  # the range's name, for a test that goes through all options
     return check
 
 

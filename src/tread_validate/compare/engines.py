@@ -17,7 +17,7 @@ def engine_runs(cases: Sequence[Case], reference_dir: Path, decks_dir: Path, eng
     runs: dict[tuple[str, str], object] = {}
     for engine in engines:
         runs.update(fe_runs(cases, reference_dir, engine, decks_dir))
-    return runs  # type: ignore[return-value]
+    return runs  # type: ignore[return-value]  # values are what fe_runs gives
 
 
 def engine_rows(cases: Sequence[Case], runs: Runs, engines: Sequence[str]) -> list[MetricRow]:

@@ -63,7 +63,7 @@ def read_amplitudes(blocks: list[KeywordBlock]) -> dict[str, Amplitude]:
 
 
 @kernel()
-def amplitude_at(times, values, integrals, first, last, smooth, guess, t):  # type: ignore[no-untyped-def]
+def amplitude_at(times, values, integrals, first, last, smooth, guess, t):  # type: ignore[no-untyped-def]  # numba types it
     """Return (value, integral from the first time, piece) of the amplitude in rows `first`..`last`-1 at time `t`.
 
     `guess` is the piece of the call before; time only moves on.

@@ -21,7 +21,7 @@ def gather_amplitudes(step: Step, start: float) -> tuple[Amplitudes, dict[str, i
     used: list[Amplitude] = []
     rows: dict[str, int] = {}
     for item in [*step.conditions.values(), *step.loads]:
-        amplitude = item.amplitude  # type: ignore[attr-defined]
+        amplitude = item.amplitude  # type: ignore[attr-defined]  # conditions and loads all have one
         if amplitude is not None and amplitude.name not in rows:
             rows[amplitude.name] = len(used)
             used.append(amplitude)

@@ -23,7 +23,7 @@ TWO_PI = 2.0 * math.pi
 
 
 @kernel()
-def project(segments, x, y):  # type: ignore[no-untyped-def]
+def project(segments, x, y):  # type: ignore[no-untyped-def]  # numba types it
     """Return (gap, normal x, normal y) of the nearest point of a profile to (x, y); negative gaps lie inside."""
     best = np.inf
     gap = np.inf
@@ -60,7 +60,7 @@ def project(segments, x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def nodal_normals(x0, u, face, out):  # type: ignore[no-untyped-def]
+def nodal_normals(x0, u, face, out):  # type: ignore[no-untyped-def]  # numba types it
     """Write the integrals of shape function times normal over a bilinear face (4 nodes) into `out` (4, 3); exact.
 
     With x = c0 + c1 r + c2 s + c3 r s the normal is c1 x c2 + r c1 x c3 + s c3 x c2.
@@ -83,7 +83,7 @@ def nodal_normals(x0, u, face, out):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def face_areas(faces, slaves, x0, u, area):  # type: ignore[no-untyped-def]
+def face_areas(faces, slaves, x0, u, area):  # type: ignore[no-untyped-def]  # numba types it
     """Write each slave node's share of the current area of the faces (k, 4: positions in `slaves`)."""
     normals = np.empty((4, 3))
     face = np.empty(4, dtype=np.int64)
@@ -98,7 +98,7 @@ def face_areas(faces, slaves, x0, u, area):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def find_contacts(pair, turn, turn_old, half_sum, dt, nodes):  # type: ignore[no-untyped-def]
+def find_contacts(pair, turn, turn_old, half_sum, dt, nodes):  # type: ignore[no-untyped-def]  # numba types it
     """Put penetrating slave nodes on the master and find the stick forces; return the number of contacts.
 
     Parameters
@@ -164,7 +164,7 @@ def find_contacts(pair, turn, turn_old, half_sum, dt, nodes):  # type: ignore[no
 
 
 @kernel()
-def predicted_slip(pair, row, v, at, dt):  # type: ignore[no-untyped-def]
+def predicted_slip(pair, row, v, at, dt):  # type: ignore[no-untyped-def]  # numba types it
     """Return the slip over the increment without friction and write its direction; any in the surface if none."""
     n0, n1, n2 = pair.normal[row, 0], pair.normal[row, 1], pair.normal[row, 2]
     s0 = v[at] * dt - pair.carried[row, 0]
@@ -189,7 +189,7 @@ def predicted_slip(pair, row, v, at, dt):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def coulomb(pair, count):  # type: ignore[no-untyped-def]
+def coulomb(pair, count):  # type: ignore[no-untyped-def]  # numba types it
     """Constant friction: the tangential force is -min(mu N, stick force)."""
     for k in range(count):
         pair.tangential[k, 0] = -min(pair.coefficient[0] * pair.normal_force[k], pair.stick_force[k])
@@ -197,7 +197,7 @@ def coulomb(pair, count):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def apply_friction(pair, count, half_sum, dt, nodes, work):  # type: ignore[no-untyped-def]
+def apply_friction(pair, count, half_sum, dt, nodes, work):  # type: ignore[no-untyped-def]  # numba types it
     """Move the contacts by their tangential forces; return the first contact whose force is out of range, else -1.
 
     `pair.force` gets each slave node's normal and tangential force, `pair.slipping` its state, `work` what the master

@@ -42,7 +42,7 @@ POINTS = 8
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def full_block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elastic, kind, out, work):  # type: ignore[no-untyped-def]
+def full_block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elastic, kind, out, work):  # type: ignore[no-untyped-def]  # numba types it
     """Advance blocks `first`..`last` of Gauss points by one step and write their forces.
 
     Parameters and result are those of `element_kernel.block_forces`, with a Gauss point in the place of an element: its
@@ -86,7 +86,7 @@ def full_block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, e
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def _gradients(w):  # type: ignore[no-untyped-def]
+def _gradients(w):  # type: ignore[no-untyped-def]  # numba types it
     """Deformation gradients, row by row; they are also the start of the rotations."""
     n = LANES
     for c in range(3):
@@ -107,7 +107,7 @@ def _gradients(w):  # type: ignore[no-untyped-def]
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def _rotations(w):  # type: ignore[no-untyped-def]
+def _rotations(w):  # type: ignore[no-untyped-def]  # numba types it
     """Newton's iteration R <- (R + R^-T)/2 from R = F (Higham, doi:10.1137/0907079)."""
     n = LANES
     for _ in range(12):
@@ -144,7 +144,7 @@ def _rotations(w):  # type: ignore[no-untyped-def]
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def _own_stretches(w):  # type: ignore[no-untyped-def]
+def _own_stretches(w):  # type: ignore[no-untyped-def]  # numba types it
     """Each point's own stretch U = R^T F into `_D`, its adjugate J U^-1 and J into `_Q`."""
     n = LANES
     for i in range(n):
@@ -179,7 +179,7 @@ def _own_stretches(w):  # type: ignore[no-untyped-def]
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def _mean_dilatation(w):  # type: ignore[no-untyped-def]
+def _mean_dilatation(w):  # type: ignore[no-untyped-def]  # numba types it
     """Write J_bar into `_J`, stretch `_D` to it; return the least of the points' own J."""
     n = LANES
     worst = 1e30
@@ -200,7 +200,7 @@ def _mean_dilatation(w):  # type: ignore[no-untyped-def]
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def _strain_increments(w):  # type: ignore[no-untyped-def]
+def _strain_increments(w):  # type: ignore[no-untyped-def]  # numba types it
     """Put the stretches of `_D` into the state and write sym(dU U_mid^-1) in their place: deviator, then volume."""
     n = LANES
     for i in range(n):
@@ -239,7 +239,7 @@ def _strain_increments(w):  # type: ignore[no-untyped-def]
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def _relax(b, dt, hist, decay, gain, elastic, k, w):  # type: ignore[no-untyped-def]
+def _relax(b, dt, hist, decay, gain, elastic, k, w):  # type: ignore[no-untyped-def]  # numba types it
     """Long-term strain, damping and the Prony terms into `_S`: rows 0-4 deviator, row 5 volume."""
     n = LANES
     damp = elastic[k, 4] / dt
@@ -266,7 +266,7 @@ def _relax(b, dt, hist, decay, gain, elastic, k, w):  # type: ignore[no-untyped-
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def _stresses(dt, shear, bulk, w):  # type: ignore[no-untyped-def]
+def _stresses(dt, shear, bulk, w):  # type: ignore[no-untyped-def]  # numba types it
     """Stresses, their work and that of bulk viscosity, and Piola-Kirchhoff stress times volume into `_P`."""
     n = LANES
     for first in range(0, n, POINTS):

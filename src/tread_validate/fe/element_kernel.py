@@ -33,7 +33,7 @@ WORK_ROWS = 84
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elastic, kind, out, work):  # type: ignore[no-untyped-def]
+def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elastic, kind, out, work):  # type: ignore[no-untyped-def]  # numba types it
     """Advance blocks `first`..`last` by one step and write their element forces.
 
     Parameters

@@ -26,7 +26,7 @@ COLUMNS = (
 
 
 @kernel(fastmath=True)
-def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]
+def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]  # numba types it
     """Return recoverable energy, work of the stress, hourglass energy and bulk viscous work of all elements.
 
     A term of weight g holds q = g e for its spring's strain e: it stores (2 G |dev q|^2 + K tr q^2)/(2 g), per
@@ -106,7 +106,7 @@ def element_energies(elements, weights, u):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def largest_strain(elements, most):  # type: ignore[no-untyped-def]
+def largest_strain(elements, most):  # type: ignore[no-untyped-def]  # numba types it
     """Return the largest principal logarithmic strain by size, over all elements, and `most` if that is larger.
 
     An element whose stretch is so near to 1 that none of its strains can be larger is passed over.
@@ -147,7 +147,7 @@ def largest_strain(elements, most):  # type: ignore[no-untyped-def]
 
 
 @kernel(fastmath=True)
-def kinetic_energy(v, mass):  # type: ignore[no-untyped-def]
+def kinetic_energy(v, mass):  # type: ignore[no-untyped-def]  # numba types it
     """Return half the sum of m v^2; `v` flat, `mass` per node."""
     total = 0.0
     for node in range(mass.size):

@@ -60,7 +60,7 @@ class Simulation:
     def __init__(self, model: Model, routine: UserRoutine | None = None, threads: int = 1) -> None:
         self.model = model
         self.routine = routine
-        self.threads = min(threads, numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
+        self.threads = min(threads, numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]  # numba sets it at run time
         self.duration = sum(step.period for step in model.steps)
         self.blocks: Blocks = pack(model, self.duration)
         self._scale_masses()

@@ -34,7 +34,7 @@ OK, INVERTED, BAD_FRICTION = 0, 1, 2
 
 
 @kernel()
-def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def]
+def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def]  # numba types it
     """Do one chunk of the element loop; return its least volume ratio."""
     total = elements.kind.size
     first, last = chunk * total // chunks, (chunk + 1) * total // chunks
@@ -52,7 +52,7 @@ def element_loop(chunk, chunks, dt, elements, u):  # type: ignore[no-untyped-def
 
 
 @kernel()
-def node_loop(chunk, chunks, half_sum, dt, elements, nodes):  # type: ignore[no-untyped-def]
+def node_loop(chunk, chunks, half_sum, dt, elements, nodes):  # type: ignore[no-untyped-def]  # numba types it
     """Do one chunk of the node loop."""
     total = elements.slot_start.size - 1
     first, last = chunk * total // chunks, (chunk + 1) * total // chunks
@@ -60,7 +60,7 @@ def node_loop(chunk, chunks, half_sum, dt, elements, nodes):  # type: ignore[no-
 
 
 @kernel()
-def gather_loop(chunk, chunks, elements, nodes):  # type: ignore[no-untyped-def]
+def gather_loop(chunk, chunks, elements, nodes):  # type: ignore[no-untyped-def]  # numba types it
     """Do one chunk of the gathering of element forces."""
     total = elements.slot_start.size - 1
     first, last = chunk * total // chunks, (chunk + 1) * total // chunks
@@ -68,7 +68,7 @@ def gather_loop(chunk, chunks, elements, nodes):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def add_work_of_loads(half_sum, nodes, work):  # type: ignore[no-untyped-def]
+def add_work_of_loads(half_sum, nodes, work):  # type: ignore[no-untyped-def]  # numba types it
     """Add half of what the loads do: called with the velocities before and after the increment."""
     for dof in range(nodes.load.size):
         if nodes.load[dof] != 0.0:
@@ -76,7 +76,7 @@ def add_work_of_loads(half_sum, nodes, work):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def before_nodes(half_sum, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]
+def before_nodes(half_sum, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]  # numba types it
     """Loads at the start of the increment, and what the node loop will overwrite but is still needed."""
     if loads.dof.size or loads.pressure.size:
         for dof in range(nodes.load.size):
@@ -102,7 +102,7 @@ def before_nodes(half_sum, nodes, amplitudes, prescribed, loads, bodies, pairs, 
 
 
 @kernel()
-def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bodies, work):  # type: ignore[no-untyped-def]
+def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bodies, work):  # type: ignore[no-untyped-def]  # numba types it
     """Put prescribed degrees of freedom and rigid bodies where they are at the end of the increment."""
     evaluate_amplitudes(
         amplitudes.row, amplitudes.time, amplitudes.table, amplitudes.area_table, amplitudes.smooth, amplitudes.base,
@@ -155,7 +155,7 @@ def constrain(half_sum, dt, total, step_time, nodes, amplitudes, prescribed, bod
 
 
 @kernel()
-def user_friction(pair, count, dt, total, step_time, step, increment, nodes):  # type: ignore[no-untyped-def]
+def user_friction(pair, count, dt, total, step_time, step, increment, nodes):  # type: ignore[no-untyped-def]  # numba types it
     """Call VFRIC with the contacts found."""
     face_areas(pair.faces, pair.slaves, nodes.x0, nodes.u, pair.area)
     for k in range(pair.slaves.size):
@@ -179,7 +179,7 @@ def user_friction(pair, count, dt, total, step_time, step, increment, nodes):  #
 
 
 @kernel()
-def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pairs, work):  # type: ignore[no-untyped-def]
+def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pairs, work):  # type: ignore[no-untyped-def]  # numba types it
     """Correct the trial motion of the slave nodes; return pair and contact of the first bad friction force, or -1."""
     for number in range(len(pairs)):
         pair = pairs[number]
@@ -204,7 +204,7 @@ def contact(half_sum, dt, total, step_time, step, increment, nodes, bodies, pair
 
 
 @kernel()
-def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]
+def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pairs, work):  # type: ignore[no-untyped-def]  # numba types it
     """Do everything of an increment between the node loop and the element loop; return pair and contact gone bad."""
     clock[TOTAL_TIME] += dt
     clock[STEP_TIME] += dt
@@ -220,7 +220,7 @@ def finish(half_sum, dt, clock, nodes, amplitudes, prescribed, loads, bodies, pa
 
 
 @kernel(parallel=True)
-def advance(increments, dt, clock, elements, nodes, amplitudes, prescribed, loads, bodies, pairs, work, fault):  # type: ignore[no-untyped-def]
+def advance(increments, dt, clock, elements, nodes, amplitudes, prescribed, loads, bodies, pairs, work, fault):  # type: ignore[no-untyped-def]  # numba types it
     """Run `increments` increments of `dt`, the chunks of the loops spread over the threads that numba has.
 
     Every number comes from the same operations in the same order whatever the number of threads.

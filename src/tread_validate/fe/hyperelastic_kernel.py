@@ -19,7 +19,7 @@ FAST = {"contract", "reassoc", "nsz", "arcp", "afn"}
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def stress_for_strain(stretch, jacobian, total, increment, kept):  # type: ignore[no-untyped-def]
+def stress_for_strain(stretch, jacobian, total, increment, kept):  # type: ignore[no-untyped-def]  # numba types it
     """Keep the strain `increment` in `kept`; put that of the instantaneous stress, over 2 G and K, in its place.
 
     `total` is the instantaneous stress at the end of the increment before, over 2 G and K.
@@ -43,7 +43,7 @@ def stress_for_strain(stretch, jacobian, total, increment, kept):  # type: ignor
 
 
 @kernel(fastmath=FAST, boundscheck=False)
-def cauchy_and_strain(damp, jacobian, stress, increment, kept):  # type: ignore[no-untyped-def]
+def cauchy_and_strain(damp, jacobian, stress, increment, kept):  # type: ignore[no-untyped-def]  # numba types it
     """Turn Kirchhoff `stress` to Cauchy, damped by `damp` times the strain increment, and put that back."""
     n = jacobian.size
     for row in range(6):
@@ -54,7 +54,7 @@ def cauchy_and_strain(damp, jacobian, stress, increment, kept):  # type: ignore[
 
 
 @kernel()
-def long_term_energy(u0, u1, u2, u3, u4, u5, two_g, bulk):  # type: ignore[no-untyped-def]
+def long_term_energy(u0, u1, u2, u3, u4, u5, two_g, bulk):  # type: ignore[no-untyped-def]  # numba types it
     """Return the strain energy at a stretch (11, 22, 33, 12, 13, 23), per reference volume."""
     jacobian = u0 * (u1 * u2 - u5 * u5) + u3 * (u4 * u5 - u3 * u2) + u4 * (u3 * u5 - u1 * u4)
     trace = u0 * u0 + u1 * u1 + u2 * u2 + 2.0 * (u3 * u3 + u4 * u4 + u5 * u5)

@@ -41,7 +41,7 @@ class Stiffness(NamedTuple):
 
 
 @kernel(reorder=True)
-def deform(connectivity, gradients, volume, u, out, out_volume):  # type: ignore[no-untyped-def]
+def deform(connectivity, gradients, volume, u, out, out_volume):  # type: ignore[no-untyped-def]  # numba types it
     """Write gradients F^-T b (m, 3, 8) and volumes J V (m,) of the mesh displaced by `u` (n, 3)."""
     f = np.empty((3, 3))
     g = np.empty((3, 3))
@@ -67,7 +67,7 @@ def deform(connectivity, gradients, volume, u, out, out_volume):  # type: ignore
 
 
 @kernel(reorder=True)
-def multiply(stiffness, x, out):  # type: ignore[no-untyped-def]
+def multiply(stiffness, x, out):  # type: ignore[no-untyped-def]  # numba types it
     """Write the stiffness times `x` into `out`, both (n, 3)."""
     out[:] = 0.0
     g = np.empty((3, 3))
@@ -94,7 +94,7 @@ def multiply(stiffness, x, out):  # type: ignore[no-untyped-def]
 
 
 @kernel(reorder=True)
-def dot(x, y):  # type: ignore[no-untyped-def]
+def dot(x, y):  # type: ignore[no-untyped-def]  # numba types it
     """Return the sum of x y over flat arrays, on this thread alone: BLAS would wake others for it."""
     total = 0.0
     for i in range(x.size):
@@ -103,7 +103,7 @@ def dot(x, y):  # type: ignore[no-untyped-def]
 
 
 @kernel(reorder=True)
-def krylov(stiffness, root, start, basis, diagonal, beside):  # type: ignore[no-untyped-def]
+def krylov(stiffness, root, start, basis, diagonal, beside):  # type: ignore[no-untyped-def]  # numba types it
     """Write Lanczos' basis (steps, 3 n) and tridiagonal matrix from `start` (3 n,); return the steps made."""
     size = start.size
     scaled = np.empty(size)

@@ -13,7 +13,7 @@ from .element_kernel import LANES
 
 
 @kernel()
-def gather_forces(first, last, element_force, slots, slot_start, force):  # type: ignore[no-untyped-def]
+def gather_forces(first, last, element_force, slots, slot_start, force):  # type: ignore[no-untyped-def]  # numba types it
     """Sum the element forces (rows of LANES: x, y, z) of nodes `first`..`last` into `force` (3 n,)."""
     f = element_force.reshape(-1)
     for node in range(first, last):
@@ -31,7 +31,7 @@ def gather_forces(first, last, element_force, slots, slot_start, force):  # type
 
 
 @kernel()
-def kick_and_drift(first, last, half_sum, dt, inverse_mass, force, load, v, u):  # type: ignore[no-untyped-def]
+def kick_and_drift(first, last, half_sum, dt, inverse_mass, force, load, v, u):  # type: ignore[no-untyped-def]  # numba types it
     """v += (load - force)/m (dt_old + dt)/2, u += v dt for nodes `first`..`last` (central differences)."""
     for node in range(first, last):
         scale = half_sum * inverse_mass[node]
@@ -41,7 +41,7 @@ def kick_and_drift(first, last, half_sum, dt, inverse_mass, force, load, v, u): 
 
 
 @kernel()
-def evaluate_amplitudes(amp_row, amp_time, amp_value, amp_area, amp_smooth, amp_base, guess, total, value, area):  # type: ignore[no-untyped-def]
+def evaluate_amplitudes(amp_row, amp_time, amp_value, amp_area, amp_smooth, amp_base, guess, total, value, area):  # type: ignore[no-untyped-def]  # numba types it
     """Evaluate every amplitude at the total time `total` into `value` and `area` (integral from its first time)."""
     for k in range(amp_smooth.size):
         value[k], area[k], guess[k] = amplitude_at(
@@ -50,7 +50,7 @@ def evaluate_amplitudes(amp_row, amp_time, amp_value, amp_area, amp_smooth, amp_
 
 
 @kernel()
-def prescribed_value(kind, magnitude, amplitude, start, area_start, step_time, value, area):  # type: ignore[no-untyped-def]
+def prescribed_value(kind, magnitude, amplitude, start, area_start, step_time, value, area):  # type: ignore[no-untyped-def]  # numba types it
     """Return the displacement a condition asks for: held, integral of a velocity (exact), or a displacement."""
     if kind == 0:
         return start
@@ -62,7 +62,7 @@ def prescribed_value(kind, magnitude, amplitude, start, area_start, step_time, v
 
 
 @kernel()
-def rotate(ax, ay, az, matrix):  # type: ignore[no-untyped-def]
+def rotate(ax, ay, az, matrix):  # type: ignore[no-untyped-def]  # numba types it
     """Turn the rows' frame `matrix` (3, 3) in place by a rotation vector (Rodrigues)."""
     angle = math.sqrt(ax * ax + ay * ay + az * az)
     if angle == 0.0:
@@ -78,7 +78,7 @@ def rotate(ax, ay, az, matrix):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def pressure_loads(faces, magnitude, amplitude, value, x0, u, load):  # type: ignore[no-untyped-def]
+def pressure_loads(faces, magnitude, amplitude, value, x0, u, load):  # type: ignore[no-untyped-def]  # numba types it
     """Add the nodal forces of pressures on faces (k, 4), which follow the deformation."""
     normals = np.empty((4, 3))
     for k in range(faces.shape[0]):

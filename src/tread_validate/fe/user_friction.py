@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from llvmlite import ir  # type: ignore[import-untyped]
+from llvmlite import ir  # type: ignore[import-untyped]  # numba and llvmlite have no types
 from numba import types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
@@ -99,10 +99,10 @@ def _compile_error(path: Path, message: str) -> EngineError:
 
 
 @intrinsic
-def call_vfric(typingctx, address, table):  # type: ignore[no-untyped-def]
+def call_vfric(typingctx, address, table):  # type: ignore[no-untyped-def]  # numba types it
     """Call the routine at `address` (int64) with the pointers listed at `table` (int64)."""
 
-    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]  # numba types it
         pointer = ir.PointerType(ir.IntType(8))
         long = ir.IntType(64)
         kinds = [pointer] * ARGUMENTS + [long] * 3
@@ -121,9 +121,9 @@ def call_vfric(typingctx, address, table):  # type: ignore[no-untyped-def]
 
 
 @kernel()
-def call_at(address, table):  # type: ignore[no-untyped-def]
+def call_at(address, table):  # type: ignore[no-untyped-def]  # numba types it
     """Call VFRIC once with the arguments whose addresses `table` lists."""
-    call_vfric(address, table.ctypes.data)  # type: ignore[call-arg]
+    call_vfric(address, table.ctypes.data)  # type: ignore[call-arg]  # numba and llvmlite have no types
 
 
 @dataclass

@@ -56,7 +56,7 @@ def number_row(line: DataLine, width: int, what: str) -> list[float]:
 
 def _uniform(texts: object, width: int) -> Floats | None:
     """Return rows of plain numbers, `width` to each; None where a line is anything else."""
-    listed: list[str] = list(texts)  # type: ignore[call-overload]
+    listed: list[str] = list(texts)  # type: ignore[call-overload]  # an array of texts is a sequence of them
     if any(text.count(",") != width - 1 for text in listed):
         return None
     joined = ",".join(listed)

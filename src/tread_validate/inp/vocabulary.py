@@ -80,7 +80,7 @@ def keywords(dialect: str = "abaqus") -> dict[str, Keyword]:
     for group, listed in content["named"].items():
         if group == "calculix" and dialect != "calculix":
             continue
-        place: Place = {"step": "step", "any": "any", "calculix": "any"}.get(group, "model")  # type: ignore[assignment]
+        place: Place = {"step": "step", "any": "any", "calculix": "any"}.get(group, "model")  # type: ignore[assignment]  # get widens the literals of the table
         for name in listed.split(","):
             entry = Keyword(place, parents=PARENT_OF_NAMED.get(group, ()), open=True)
             found.setdefault(" ".join(name.split()), entry)

@@ -10,7 +10,7 @@ from ..errors import InputError, one_line
 
 def read_sheets(path: Path | str) -> list[tuple[str, list[list[str]]]]:
     """Return name and rows of every sheet; numbers as text with a decimal point, formulas as their stored values."""
-    from openpyxl import load_workbook  # type: ignore[import-untyped]
+    from openpyxl import load_workbook  # type: ignore[import-untyped]  # the package has no types
 
     if not Path(path).is_file():
         raise InputError(path, "no such file", "an existing file")

@@ -65,4 +65,4 @@ def as_history(result: Any) -> History:
         raise InputError("the function's result", one_line(str(error)), "arrays of numbers") from None
     if arrays[0] is None or arrays[1] is None:
         raise InputError("the function's result", "None", "arrays of time and normal force")
-    return History.of(*arrays)  # type: ignore[arg-type]
+    return History.of(*arrays)  # type: ignore[arg-type]  # time and N are there, by the test above

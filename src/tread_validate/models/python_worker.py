@@ -44,7 +44,7 @@ def resolve(name: str) -> Function:
         raise InputError("object", name, f"a function that can be imported ({error})") from None
     if not callable(item):
         raise InputError("object", name, "a function")
-    return item  # type: ignore[no-any-return]
+    return item  # type: ignore[no-any-return]  # callable is all that is known of it
 
 
 def main() -> None:

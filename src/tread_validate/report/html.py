@@ -109,7 +109,7 @@ def _numbers(report: Report) -> dict[str, str]:
 
 def _folded(report: Report, environment: jinja2.Environment) -> dict[str, str]:
     """Return the HTML of every table that is folded away, deflated."""
-    set_table = environment.get_template("macros.html.j2").module.table  # type: ignore[attr-defined]
+    set_table = environment.get_template("macros.html.j2").module.table  # type: ignore[attr-defined]  # jinja2 makes the module at run time
     tables = [item for section in report.sections for item in section.items if isinstance(item, Table) and item.folded]
     return {table.key: deflated(str(set_table(table))) for table in tables}
 

@@ -83,7 +83,7 @@ def differences_table(tables: Tables, marks: Marks) -> Table:
             value_cell(low, interval),
             value_cell(row.p_value, wording.digits(row.p_value, 2)),
             value_cell(row.p_holm, wording.digits(row.p_holm, 2), note=f"of {row.tests}" if row.tests else ""),
-            Cell(outcome, tone=tone, note=row.note),  # type: ignore[arg-type]
+            Cell(outcome, tone=tone, note=row.note),  # type: ignore[arg-type]  # the tone is one of the literals
         )
         rows.append(Row(cells, marks.of(row.assumed)))
     columns = (

@@ -147,7 +147,7 @@ def draw(stimuli: list[Stimulus], path: Path, assumed: str = "") -> None:
 def _mark(axis: object, stimulus: Stimulus) -> None:
     for rate in sorted(set(stimulus.block_rates.values())):
         for harmonic in range(1, int(stimulus.frequency[-1] / rate) + 1):
-            axis.axvline(harmonic * rate, color="#888888", lw=0.8, ls=":", zorder=0)  # type: ignore[attr-defined]
+            axis.axvline(harmonic * rate, color="#888888", lw=0.8, ls=":", zorder=0)  # type: ignore[attr-defined]  # matplotlib's Axes
 
 
 def _phase(lines: NDArray[np.complex128], order: int, size: NDArray[np.float64]) -> float:

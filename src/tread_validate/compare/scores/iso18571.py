@@ -74,7 +74,7 @@ def iso18571(reference: NDArray[np.float64], predicted: NDArray[np.float64]) -> 
 @cache
 def _iso_class() -> Any:
     """Import late: the package draws in a plotting library (2 s), and its kernels take 7 s to compile each time."""
-    from dtwalign import backtrack, cost  # type: ignore[import-untyped]
+    from dtwalign import backtrack, cost  # type: ignore[import-untyped]  # the package has no types
     from objective_rating_metrics.rating import ISO18571
 
     for kernel in (cost._calc_cumsum_matrix_jit, backtrack._get_local_path, backtrack._backtrack_jit):

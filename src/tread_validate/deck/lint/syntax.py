@@ -60,7 +60,7 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
             inside = False
     if inside and opened is not None:
         severity = "error" if dialect == "abaqus" else "warning"  # CalculiX takes the end of the file for it
-        findings.add(opened, "step-order", "this *STEP has no *END STEP", severity)  # type: ignore[arg-type]
+        findings.add(opened, "step-order", "this *STEP has no *END STEP", severity)  # type: ignore[arg-type]  # one of two literals
     if deck.written and steps == 0:
         findings.add(deck.written[-1], "no-step", "the deck has no *STEP")
 
@@ -141,10 +141,10 @@ def _check_data(block: KeywordBlock, known: Keyword, findings: Findings) -> None
     severity = None if block.keyword in STRICT_FORM else "warning"
     if len(block.data) < least and "INPUT" not in block.parameters:
         text = f"*{block.keyword}: {len(block.data)} data lines, expected at least {least}"
-        findings.add(block, "data-lines", text, severity)  # type: ignore[arg-type]
+        findings.add(block, "data-lines", text, severity)  # type: ignore[arg-type]  # one of two literals
     if 0 <= most < len(block.data):
         text = f"*{block.keyword}: more data lines than the {most} it may have"
-        findings.add(block.data[most], "data-lines", text, severity)  # type: ignore[arg-type]
+        findings.add(block.data[most], "data-lines", text, severity)  # type: ignore[arg-type]  # one of two literals
     data = block.data if most < 0 else block.data[:most]
     if known.numeric and known.fields is not None and all_numbers(data, *known.fields):
         return
@@ -155,7 +155,7 @@ def _check_data(block: KeywordBlock, known: Keyword, findings: Findings) -> None
             if not low <= count <= high:
                 expected = str(low) if low == high else f"{low} to {high}"
                 text = f"*{block.keyword}: {count} fields, expected {expected}"
-                findings.add(line, "field-count", text, severity)  # type: ignore[arg-type]
+                findings.add(line, "field-count", text, severity)  # type: ignore[arg-type]  # one of two literals
         if known.numeric:
             _check_numbers(block, line, findings)
 
