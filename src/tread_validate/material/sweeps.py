@@ -108,12 +108,16 @@ def _sweeps(table: DmaTable) -> tuple[list[Sweep], str]:
 
 
 def _starts(table: DmaTable) -> list[int]:
-    """Return the rows at which a sweep starts: another temperature, or the first frequency again."""
+    """Return the rows at which a sweep starts: another temperature, or back at the first frequency.
+
+    Back means against the sweep's own direction: dense points are near the first one while they go on.
+    """
     temperature, w = table.temperature, table.angular_frequency
     starts = [0]
     for row in range(1, w.size):
         first = starts[-1]
-        again = row - first >= FEWEST_POINTS and abs(np.log(w[row] / w[first])) < SAME_FREQUENCY
+        near = row - first >= FEWEST_POINTS and abs(np.log(w[row] / w[first])) < SAME_FREQUENCY
+        again = near and (w[row] - w[row - 1]) * (w[first + 1] - w[first]) <= 0
         if abs(temperature[row] - temperature[first]) > SAME_TEMPERATURE or again:
             starts.append(row)
     return starts

@@ -37,6 +37,13 @@ def test_sweeps_are_told_apart_by_temperature_and_sorted_by_frequency(tmp_path: 
     assert sweeps[0].line[0] == 13  # the lowest frequency stood last
 
 
+@pytest.mark.parametrize("falling", [False, True])
+def test_a_dense_sweep_is_one_sweep_and_its_repetition_another(tmp_path: Path, falling: bool) -> None:
+    rows = rows_of((22.0,), 300)[:: -1 if falling else 1]  # 100 points a decade: the fifth is still near the first
+    sweeps = read_sweeps(write(tmp_path, rows + rows))
+    assert [sweep.line.size for sweep in sweeps] == [300, 300]
+
+
 def test_stated_unit_scales_both_moduli(tmp_path: Path) -> None:
     rows = [[t, f, s / 1e6, loss / 1e6] for t, f, s, loss in rows_of()]
     sweeps = read_sweeps(write(tmp_path, rows), modulus_unit="MPa")
