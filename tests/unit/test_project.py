@@ -61,3 +61,22 @@ def test_recipes_name_what_is_there(root: Path) -> None:
     for name in names:
         places = [root / name, package / name, *package.rglob(name if "/" not in name else "no-such")]
         assert any(place.exists() for place in places), name
+
+
+def test_every_test_that_a_page_names_is_there(root: Path) -> None:
+    """What a page says is held by a test, is."""
+    pages = [*root.glob("*.md"), *(root / "docs").rglob("*.md")]
+    named = {
+        (page.name, name)
+        for page in pages
+        if page.name != "CHANGELOG.md"
+        for name in re.findall(r"[\w./-]*\btest_\w+\.py", page.read_text("utf-8"))
+    }
+    assert len(named) > 12
+    there = [str(file.relative_to(root / "tests")) for file in (root / "tests").rglob("test_*.py")]
+    gone = [
+        (page, name)
+        for page, name in named
+        if not any(f"/{file}".endswith(f"/{name.removeprefix('tests/')}") for file in there)
+    ]
+    assert gone == []

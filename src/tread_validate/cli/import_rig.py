@@ -25,7 +25,7 @@ _Channel = Annotated[
 ]
 _Invert = Annotated[bool, typer.Option("--invert-tangential", help="the record counts force along the travel positive")]
 _Calibration = Annotated[
-    float, number("--cell-percent", "percent", "95 % uncertainty of the load cell, of the reading")
+    float, number("--cell-percent", "cell_percent", "95 % uncertainty of the load cell, of the reading")
 ]
 _Turning = Annotated[
     float | None,

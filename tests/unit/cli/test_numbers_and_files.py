@@ -12,6 +12,7 @@ from typing import get_type_hints
 import pytest
 from typer.models import OptionInfo
 
+from tread_validate.bounds import bound_of
 from tread_validate.cli.app import VERBS, run
 from tread_validate.cli.options import WRITTEN
 from tread_validate.history import COLUMNS
@@ -44,7 +45,7 @@ def test_every_number_of_every_verb_has_a_range_and_every_path_is_known(name: st
         (told,) = hint.__metadata__
         kinds = str(hint.__origin__)
         if "float" in kinds:
-            assert hasattr(told.callback, "quantity"), parameter
+            assert bound_of(told.callback.quantity) is not None, parameter
         elif "int" in kinds:
             assert told.min is not None, parameter
             assert told.max is not None, parameter
@@ -62,6 +63,10 @@ def test_every_number_of_every_verb_has_a_range_and_every_path_is_known(name: st
         ["fit-prony", "{sweeps}", "--ts", "nan"],
         ["fit-prony", "{sweeps}", "--margins", "1e300", "1e300"],
         ["fit-prony", "{sweeps}", "--loss-weight", "1e300"],
+        ["fit-prony", "{sweeps}", "--poissons-ratio", "-5"],
+        ["fit-prony", "{sweeps}", "--poissons-ratio", "0.5"],
+        ["fit-prony", "{sweeps}", "--density-kg-m3", "1e-308"],
+        ["deck", "study.yaml", "--all", "--element-size", "1e-308"],
         ["fit-friction", "{table}", "--hold", "n=nan"],
         ["fit-friction", "{table}", "--hold", "m=-5"],
         ["fit-friction", "{table}", "--static", "1e308"],
@@ -71,6 +76,9 @@ def test_every_number_of_every_verb_has_a_range_and_every_path_is_known(name: st
         ["import-rig", "{record}", "--interference-mm", "nan"],
         ["import-rig", "{record}", "--interference-mm", "1e9"],
         ["import-rig", "{record}", "--wheel-diameter-mm", "-5"],
+        ["import-rig", "{record}", "--wheel-diameter-mm", "1e-308"],
+        ["import-rig", "{record}", "--low-pass-Hz", "1e-308"],
+        ["import-rig", "{record}", "--cell-percent", "-5"],
         ["regress", "peaks.csv", "--zero-degC", "nan"],
         ["import-belt", "straight.csv"],
         ["compare", "huge.csv", "huge.csv"],
