@@ -13,9 +13,9 @@ from .compare.baseline.movement import Movement, movements
 from .compare.baseline.store import Acceptance, Baseline, load_baseline, same_study
 from .compare.build import write_tables
 from .compare.model_runs import model_runs, model_source
-from .compare.part import Part, part_of
+from .compare.part import StudyPart, part_of
 from .compare.runs import spring_runs
-from .compare.study_comparison import Comparison, compare_study
+from .compare.study_comparison import StudyComparison, compare_study
 from .compare.summary import write_summary
 from .files import read_text, write_text
 from .models.run import run_model
@@ -42,8 +42,8 @@ class ModelCheck:
         None where the baseline has no row of any of them.
     """
 
-    part: Part
-    found: Comparison
+    part: StudyPart
+    found: StudyComparison
     accepted: tuple[str, ...]
     check: Check | None
     moved: tuple[Movement, ...]
@@ -64,7 +64,7 @@ class ModelCheck:
 
 
 @dataclass(frozen=True)
-class Places:
+class LoopPlaces:
     """Where the loop reads and writes: ``decks``, ``spring``, ``models`` and ``tables`` below `folder` are its own."""
 
     folder: Path
@@ -76,7 +76,7 @@ def check_models(
     study: LoadedStudy,
     names: Sequence[str],
     case_ids: Sequence[str],
-    places: Places,
+    places: LoopPlaces,
     *,
     trusted: bool = False,
     jobs: int = 1,
@@ -107,7 +107,7 @@ def check_models(
     known = _known(part, accepted)
     if accepted is None or not known:
         return ModelCheck(part, found, (), None, (), None)
-    narrowed = Part(
+    narrowed = StudyPart(
         tuple(name for name in part.variants if f"spring:{name}" in known),
         tuple(name for name in part.models if model_source(name) in known),
         part.case_ids,
@@ -117,7 +117,7 @@ def check_models(
     return ModelCheck(part, found, known, check, moved, accepted.acceptance)
 
 
-def _known(part: Part, accepted: Baseline | None) -> tuple[str, ...]:
+def _known(part: StudyPart, accepted: Baseline | None) -> tuple[str, ...]:
     rows = () if accepted is None else accepted.tables["peaks"]
     inside = {row.get("source") for row in rows}
     return tuple(source for source in part.sources if source in inside)

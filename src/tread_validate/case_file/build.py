@@ -78,17 +78,17 @@ def _compound(case: Case) -> doc.Compound:
         density_kg_m3=compound.density_kg_m3,
         data_temperature_degC=series.reference_temperature,
         shift_factor=_short(shift),
-        wlf=doc.Wlf(**compound.wlf.model_dump()) if compound.shift is None else None,
+        wlf=doc.CaseWlf(**compound.wlf.model_dump()) if compound.shift is None else None,
     )
 
 
-def _friction(case: Case) -> doc.Friction:
+def _friction(case: Case) -> doc.CaseFriction:
     friction: FrictionLaw = law(case.friction, case.root)
     pressures, speeds = np.geomspace(*PRESSURES), np.geomspace(*SLIP_SPEEDS)
     if friction.pressures.size:  # a measured table is handed on at its own levels
         pressures, speeds = friction.pressures, friction.slip_speeds
     table = friction.kinetic(pressures[:, None], speeds[None, :])
-    return doc.Friction(
+    return doc.CaseFriction(
         name=case.friction_name,
         origin=case.friction.origin,
         source=case.friction.source,
@@ -98,7 +98,7 @@ def _friction(case: Case) -> doc.Friction:
             name: doc.Constant(value=value, unit=friction.form.units[name])
             for name, value in friction.constants.items()
         },
-        table=doc.FrictionTable(
+        table=doc.CaseFrictionTable(
             pressure_Pa=_numbers(pressures),
             slip_speed_m_s=_numbers(speeds),
             coefficient=tuple(_numbers(row) for row in table),
@@ -106,12 +106,12 @@ def _friction(case: Case) -> doc.Friction:
     )
 
 
-def _block(case: Case, path: BlockPath) -> doc.Block:
+def _block(case: Case, path: BlockPath) -> doc.CaseBlock:
     block, profile = case.block, path.profile
     skew = block.skew_deg * DEG
     s = np.linspace(0.0, profile.extent, COLUMN_SAMPLES)
     places, widths = _steps(profile.positions, profile.jumps, profile.kinks)
-    return doc.Block(
+    return doc.CaseBlock(
         name=case.block_name,
         origin=block.origin,
         source=block.source,
@@ -122,7 +122,7 @@ def _block(case: Case, path: BlockPath) -> doc.Block:
         skew_rad=_short(skew),
         mounting=block.mounting,
         sipes=tuple(
-            doc.Sipe(
+            doc.CaseSipe(
                 position_m=_short(sipe.position_mm * MM),
                 width_m=_short(sipe.width_mm * MM),
                 depth_m=_short((sipe.depth_mm or block.height_mm) * MM),
@@ -133,8 +133,8 @@ def _block(case: Case, path: BlockPath) -> doc.Block:
         mesh=block.mesh,
         area_m2=_short(profile.area),
         outline_m=_outline(case, skew),
-        width_profile=doc.WidthProfile(s_m=_numbers(places), width_m=_numbers(widths)),
-        columns=doc.Columns(
+        width_profile=doc.CaseWidthProfile(s_m=_numbers(places), width_m=_numbers(widths)),
+        columns=doc.CaseColumns(
             s_m=_numbers(s),
             arc_offset_m=_numbers(path.columns.arc_offset(s)),
             x_offset_m=_numbers(path.columns.x_offset(s)),
@@ -178,13 +178,13 @@ def _outline(case: Case, skew: float) -> tuple[tuple[tuple[float, float], ...], 
     )
 
 
-def _path(case: Case, path: BlockPath) -> doc.Path:
+def _path(case: Case, path: BlockPath) -> doc.CasePath:
     first = path.first_contact_arc - float(path.columns.arc_offset(path.profile.extent))
     last = path.first_contact_arc + path.speed * path.contact_duration
     reach = MARGIN * (last - first)
     arc = np.linspace(first - reach, last + reach, ARC_SAMPLES)
     x, y, theta = path.mount(arc)
-    return doc.Path(
+    return doc.CasePath(
         name=case.path_name,
         origin=case.path.origin,
         source=case.path.source,
@@ -215,9 +215,9 @@ def _parameters(case: Case) -> dict[str, doc.Constant]:
     return found
 
 
-def _road(case: Case, path: BlockPath) -> doc.Road:
+def _road(case: Case, path: BlockPath) -> doc.CaseRoad:
     assert case.creep_ratio is not None
-    return doc.Road(
+    return doc.CaseRoad(
         kind="plane" if path.road.is_plane else "wheel",
         radius_m=None if path.road.is_plane else _short(path.road.radius),
         surface_speed_m_s=_short(case.speed * (1.0 + case.creep_ratio)),

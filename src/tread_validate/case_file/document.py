@@ -51,7 +51,7 @@ class Term(Frozen):
     relaxation_time_s: Positive
 
 
-class Wlf(Frozen):
+class CaseWlf(Frozen):
     """log10 a_T = -C1 (T - Ts)/(C2 + T - Ts); Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955) 3701-3707."""
 
     c1: Positive
@@ -69,7 +69,7 @@ class Compound(Named):
     density_kg_m3: Positive
     data_temperature_degC: FiniteFloat = Field(description="at which the compound was measured or stated")
     shift_factor: Positive = Field(description="relaxation times here over those at the data temperature")
-    wlf: Wlf | None = Field(description="null where the compound shifts by another law; see shift_factor")
+    wlf: CaseWlf | None = Field(description="null where the compound shifts by another law; see shift_factor")
 
 
 class Constant(Frozen):
@@ -79,7 +79,7 @@ class Constant(Frozen):
     unit: str
 
 
-class FrictionTable(Frozen):
+class CaseFrictionTable(Frozen):
     """The kinetic coefficient over contact pressure (rows) and slip speed (columns)."""
 
     pressure_Pa: Numbers
@@ -87,16 +87,16 @@ class FrictionTable(Frozen):
     coefficient: tuple[Numbers, ...]
 
 
-class Friction(Named):
+class CaseFriction(Named):
     """Static coefficient (limit while sticking) and kinetic coefficient over pressure and slip speed."""
 
     kind: str
     static_coefficient: NonNegative
     constants: dict[str, Constant] = Field(description="of the law's formula; empty for a measured table")
-    table: FrictionTable = Field(description="the same law as numbers: linear between them in log p and log v")
+    table: CaseFrictionTable = Field(description="the same law as numbers: linear between them in log p and log v")
 
 
-class Sipe(Frozen):
+class CaseSipe(Frozen):
     """A gap through the block's width, from the face up."""
 
     position_m: NonNegative
@@ -104,14 +104,14 @@ class Sipe(Frozen):
     depth_m: Positive = Field(description="from the face; the block's height for a cut through")
 
 
-class WidthProfile(Frozen):
+class CaseWidthProfile(Frozen):
     """Width of the contact face against s: linear between the points; two points at one s are a jump."""
 
     s_m: Numbers
     width_m: Numbers
 
 
-class Columns(Frozen):
+class CaseColumns(Frozen):
     """The block's columns: their place along the path behind the leading end's, and their stress-free heights."""
 
     s_m: Numbers
@@ -120,7 +120,7 @@ class Columns(Frozen):
     height_m: Numbers
 
 
-class Block(Named):
+class CaseBlock(Named):
     """The tread block; its plan dimensions are those of the contact face."""
 
     shape: str
@@ -129,18 +129,18 @@ class Block(Named):
     height_m: Positive
     skew_rad: FiniteFloat
     mounting: str = Field(description="conforming: face parallel to the mount everywhere; flat: a flat face")
-    sipes: tuple[Sipe, ...]
+    sipes: tuple[CaseSipe, ...]
     draft_rad: NonNegative = Field(description="lean of the outer walls: the block widens from the face to the mount")
     mesh: str | None = Field(description="mesh file of the block where the study gives one")
     area_m2: Positive
     outline_m: tuple[tuple[tuple[FiniteFloat, FiniteFloat], ...], ...] = Field(
         description="polygons (s, z) of the face's solid parts, z along the axle"
     )
-    width_profile: WidthProfile
-    columns: Columns
+    width_profile: CaseWidthProfile
+    columns: CaseColumns
 
 
-class Road(Frozen):
+class CaseRoad(Frozen):
     """The rigid road: the plane y = 0, or a wheel's circle with its centre at (0, -radius)."""
 
     kind: Literal["plane", "wheel"]
@@ -159,7 +159,7 @@ class PathSamples(Frozen):
     curvature_1_m: Numbers
 
 
-class Path(Named):
+class CasePath(Named):
     """The curve that the mount point of the block follows, fixed in the axle frame."""
 
     kind: str
@@ -188,7 +188,7 @@ class CaseFile(Frozen):
     free_rolling: bool = Field(description="whether the creep ratio is the one without net tangential impulse")
     expected_duration_s: Positive = Field(description="from first contact until the road has left the stress-free face")
     compound: Compound
-    friction: Friction
-    block: Block
-    path: Path
-    road: Road
+    friction: CaseFriction
+    block: CaseBlock
+    path: CasePath
+    road: CaseRoad

@@ -46,7 +46,7 @@ def command(
     from ..compare.baseline.output import delta_csv, delta_junit, delta_markdown, summary
     from ..errors import CheckFailedError, EngineError
     from ..files import write_text
-    from ..model_check import Places, check_models
+    from ..model_check import LoopPlaces, check_models
     from ..model_told import told
     from ..study import load_study
     from ..workspace import Workspace
@@ -54,7 +54,7 @@ def command(
     loaded = load_study(study)
     place = Workspace(loaded.model.name)
     folder = output or place.results / "model_check"
-    places = Places(folder, references, baseline or place.baseline)
+    places = LoopPlaces(folder, references, baseline or place.baseline)
     done = check_models(loaded, model or (), case or (), places, trusted=trust_models, jobs=jobs)
     shown = place.reports / "index.html"
     link = page or (Path(os.path.relpath(shown, folder)).as_posix() if shown.is_file() else "")

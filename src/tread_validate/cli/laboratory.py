@@ -10,7 +10,7 @@ from ..errors import InputError, one_line
 from ..files import write_text
 
 if TYPE_CHECKING:
-    from ..instrument import Quantity, Reading
+    from ..instrument import Measurand, Reading
     from ..study import Case
 
 ORIGINS = ("measured", "synthetic")
@@ -55,7 +55,9 @@ def provenance(*paths: Path) -> dict[str, str]:
     return found | {"version": version()}
 
 
-def reading_of(columns: list[str] | None, units: Mapping[str, str | None], quantities: tuple[Quantity, ...]) -> Reading:
+def reading_of(
+    columns: list[str] | None, units: Mapping[str, str | None], quantities: tuple[Measurand, ...]
+) -> Reading:
     """Return what ``--column KEY=COLUMN`` and the unit options say of a file."""
     from ..instrument import Reading
     from ..instrument.quantities import choices

@@ -24,7 +24,7 @@ def command(
     Example: tread-validate map config/study.yaml --runs 128 --minutes 60
     """
     from ..study import load_study
-    from ..validity.build import Settings, build
+    from ..validity.build import MapSettings, build
 
-    points = build(load_study(study).cases()[0], output, Settings(runs, minutes, jobs), typer.echo)
+    points = build(load_study(study).cases()[0], output, MapSettings(runs, minutes, jobs), typer.echo)
     typer.echo(f"{len(points)} points: {output / 'map.csv'}")

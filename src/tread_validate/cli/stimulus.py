@@ -12,7 +12,7 @@ from .options import number
 
 if TYPE_CHECKING:
     from ..history import History
-    from ..stimulus.pitch import Placement
+    from ..stimulus.pitch import RibBlocks
     from ..study import Case, LoadedStudy
 
 
@@ -120,7 +120,7 @@ def _sources(
     histories: Sequence[str],
     *,
     trusted: bool,
-) -> dict[str, Callable[[Placement], History]]:
+) -> dict[str, Callable[[RibBlocks], History]]:
     """Return, by its label, what gives the history of a block of any length: variants, models, the user's files."""
     from functools import partial
 
@@ -129,7 +129,7 @@ def _sources(
     from ..history import History
     from ..stimulus.blocks import by_history, by_model
 
-    sources: dict[str, Callable[[Placement], History]] = {}
+    sources: dict[str, Callable[[RibBlocks], History]] = {}
     for name in variants:
         sources[name] = by_model(case, partial(spring.run, variant=name))
     for name in models:

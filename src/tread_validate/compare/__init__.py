@@ -7,13 +7,13 @@ from .regression.line import regress
 from .scores.assessment import assessment
 from .scores.comparison import compare, empty_rows
 from .scores.ensemble import bias_and_scatter
-from .study_comparison import Comparison, compare_study
+from .study_comparison import StudyComparison, compare_study
 from .tables import MetricRow
 
 __all__ = [
-    "Comparison",
     "MetricRow",
     "Scalars",
+    "StudyComparison",
     "assessment",
     "bias_and_scatter",
     "build_tables",

@@ -12,7 +12,7 @@ from ..study import load_study
 from .expected_errors import expected_rows
 from .provenance import assumed_inputs, provenance
 from .regression.line import EXCLUDED_INTERFERENCES
-from .study_comparison import Comparison, compare_study
+from .study_comparison import StudyComparison, compare_study
 from .summary import write_summary
 from .table_rows import case_row, claim_row, peak_row, statistics_row, tolerance_row
 from .tables import (
@@ -41,7 +41,7 @@ def build_tables(
     out_dir: Path | str,
     decks_dir: Path | str = "fe_inputs",
     exclude: Sequence[float] = EXCLUDED_INTERFERENCES,
-) -> Comparison:
+) -> StudyComparison:
     """Compare every run of a study and write the tables; the same inputs give the same bytes.
 
     Parameters
@@ -66,7 +66,7 @@ def build_tables(
     return found
 
 
-def write_tables(found: Comparison, reference_dir: Path, out_dir: Path) -> None:
+def write_tables(found: StudyComparison, reference_dir: Path, out_dir: Path) -> None:
     """Write every table of a comparison, and the data package that describes them."""
     by_id = {case.case_id: case for case in found.cases}
     write_rows(out_dir, CaseRow, map(case_row, found.cases))

@@ -8,7 +8,7 @@ from pathlib import Path
 from ..errors import InputError, one_line
 from ..history import History
 from ..models.code import code_of
-from ..models.outcome import Outcome, read_outcome
+from ..models.outcome import RunOutcome, read_outcome
 from ..study import Case, LoadedStudy
 from .runs import SourceRun, with_scalars
 
@@ -56,7 +56,7 @@ def _run(source: str, case: Case, stem: Path, code: str) -> SourceRun:
     return with_scalars(SourceRun(source, case.case_id, "current", digest=history.digest()), history, None)
 
 
-def _stale(outcome: Outcome, case: Case, code: str) -> str:
+def _stale(outcome: RunOutcome, case: Case, code: str) -> str:
     today = case.problem_digest()
     if outcome.case_digest != today:
         return f"made from other inputs ({outcome.case_digest[:12]}, today {today[:12]})"

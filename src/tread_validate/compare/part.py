@@ -26,7 +26,7 @@ TESTS = "regression_differences"
 
 
 @dataclass(frozen=True)
-class Part:
+class StudyPart:
     """What of a study's comparison is asked for.
 
     Attributes
@@ -74,7 +74,7 @@ class Part:
         return table == "cases" or cells.get((BY_CASE | BY_SOURCE)[table]) in self.sources
 
 
-def part_of(study: LoadedStudy, names: Sequence[str], case_ids: Sequence[str], accepted: Baseline | None) -> Part:
+def part_of(study: LoadedStudy, names: Sequence[str], case_ids: Sequence[str], accepted: Baseline | None) -> StudyPart:
     """Return the part of a study that some models and cases make; without a model all of the study's, likewise cases.
 
     `names` are those of spring variants, also of ones that the study does not run, and of the study's own models, with
@@ -97,12 +97,12 @@ def part_of(study: LoadedStudy, names: Sequence[str], case_ids: Sequence[str], a
     if not names:
         chosen = {"spring": list(study.model.spring.variants), "model": list(own)}
     ids = frozenset(study.case(name).case_id for name in case_ids) or None
-    part = Part(tuple(chosen["spring"]), tuple(chosen["model"]), ids)
+    part = StudyPart(tuple(chosen["spring"]), tuple(chosen["model"]), ids)
     others = _others(part, accepted) if ids is None and accepted is not None else ()
-    return Part(part.variants, part.models, ids, others)
+    return StudyPart(part.variants, part.models, ids, others)
 
 
-def _others(part: Part, accepted: Baseline) -> tuple[Coefficient, ...]:
+def _others(part: StudyPart, accepted: Baseline) -> tuple[Coefficient, ...]:
     """Return the accepted coefficients of models that the part leaves out."""
     rows = []
     for line, cells in enumerate(accepted.tables.get("regression", ()), start=2):

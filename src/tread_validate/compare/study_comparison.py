@@ -17,7 +17,7 @@ from .claims.published import published_claims
 from .input_spread import input_spreads
 from .model_runs import model_runs
 from .numerical import numerical_uncertainties
-from .part import Part
+from .part import StudyPart
 from .quantities import Tolerances, tolerances
 from .regression.coefficients import computed_regression, published_coefficients
 from .regression.differences import differences
@@ -33,7 +33,7 @@ HIERARCHY = "hierarchy"
 
 
 @dataclass(frozen=True)
-class Comparison:
+class StudyComparison:
     """All that the tables say, before it is text."""
 
     study: LoadedStudy
@@ -57,14 +57,14 @@ def compare_study(
     decks_dir: Path,
     exclude: Sequence[float] = EXCLUDED_INTERFERENCES,
     models_dir: Path | None = None,
-    part: Part | None = None,
-) -> Comparison:
+    part: StudyPart | None = None,
+) -> StudyComparison:
     """Compare every run of a study with its reference, and the study with the paper; or a part of that.
 
     The histories of the user's own models lie in `models_dir`, beside `spring_dir` where it is None. What a part leaves
     out is not read; numerical uncertainties, those of a path and a block, are of the whole study all the same.
     """
-    whole = Part(tuple(loaded.model.spring.variants), tuple(loaded.model.models))
+    whole = StudyPart(tuple(loaded.model.spring.variants), tuple(loaded.model.models))
     variants, models, sources = (part or whole).variants, (part or whole).models, (part or whole).sources
     every = _resolved(loaded.cases())
     cases = every if part is None else part.chosen(every)
@@ -110,7 +110,7 @@ def compare_study(
         rig_peaks=measured_means(rig),
         differences=tests,
     )
-    return Comparison(
+    return StudyComparison(
         study=loaded,
         cases=cases,
         sources=(*sources, *references),

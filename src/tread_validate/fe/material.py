@@ -67,7 +67,7 @@ class Material:
 
 
 @dataclass(frozen=True)
-class Section:
+class SolidSection:
     """The material and the hourglass control of some elements.
 
     Attributes
@@ -183,10 +183,10 @@ def _complete(material: Material) -> None:
             raise InputError(material.where, f"sum of {name}_i = {total:g}", "less than 1")
 
 
-def read_sections(blocks: list[KeywordBlock], mesh: Mesh, materials: dict[str, Material]) -> list[Section]:
+def read_sections(blocks: list[KeywordBlock], mesh: Mesh, materials: dict[str, Material]) -> list[SolidSection]:
     """Read SOLID SECTION with SECTION CONTROLS; every element must have one section."""
     controls = {b.value("NAME"): b for b in blocks if b.keyword == "SECTION CONTROLS"}
-    sections: list[Section] = []
+    sections: list[SolidSection] = []
     seen = np.zeros(mesh.element_labels.size, dtype=np.int64)
     for block in blocks:
         if block.keyword != "SOLID SECTION":
@@ -198,7 +198,7 @@ def read_sections(blocks: list[KeywordBlock], mesh: Mesh, materials: dict[str, M
         seen[elements] += 1
         chosen = block.parameters.get("CONTROLS")
         if chosen is None:
-            sections.append(Section(elements, materials[name]))
+            sections.append(SolidSection(elements, materials[name]))
             continue
         if chosen not in controls:
             raise InputError(block.where, f"section controls {chosen}", "*SECTION CONTROLS with that name")
@@ -209,7 +209,7 @@ def read_sections(blocks: list[KeywordBlock], mesh: Mesh, materials: dict[str, M
         if min(scales) < 0:
             raise InputError(control.data[0].where, min(scales), "scaling factors >= 0")
         kind = control.parameters.get("HOURGLASS") or "RELAX STIFFNESS"
-        sections.append(Section(elements, materials[name], kind, scales[0], scales[3], scales[4]))
+        sections.append(SolidSection(elements, materials[name], kind, scales[0], scales[3], scales[4]))
     wrong = np.flatnonzero(seen != 1)
     if wrong.size:
         label = mesh.element_labels[wrong[0]]

@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..inp import Deck, KeywordBlock, read_deck
 from .amplitude import read_amplitudes
 from .kernel_data import COULOMB, NO_FRICTION, USER
-from .material import Section, read_materials, read_sections
+from .material import SolidSection, read_materials, read_sections
 from .mesh import Mesh, read_mesh
 from .rigid_surface import RigidSurface
 from .steps import Step, read_steps
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Friction:
+class SurfaceFriction:
     """Friction of an interaction: none, a constant coefficient, or VFRIC with its properties."""
 
     kind: int
@@ -54,9 +54,9 @@ class Model:
 
     deck: Deck
     mesh: Mesh
-    sections: list[Section]
+    sections: list[SolidSection]
     rigid_bodies: list[RigidBody]
-    interactions: dict[str, Friction]
+    interactions: dict[str, SurfaceFriction]
     steps: list[Step]
     temperature: Floats | None
     velocity: Floats
@@ -67,7 +67,7 @@ class Model:
         return self.user_friction is not None
 
     @property
-    def user_friction(self) -> Friction | None:
+    def user_friction(self) -> SurfaceFriction | None:
         """The first interaction of a contact pair that asks for VFRIC."""
         used = [pair.interaction for step in self.steps for pair in step.pairs]
         return next((self.interactions[name] for name in used if self.interactions[name].kind == USER), None)
@@ -128,15 +128,15 @@ def _rigid_bodies(blocks: list[KeywordBlock], mesh: Mesh) -> list[RigidBody]:
     return bodies
 
 
-def _interactions(blocks: list[KeywordBlock]) -> dict[str, Friction]:
-    found: dict[str, Friction] = {}
+def _interactions(blocks: list[KeywordBlock]) -> dict[str, SurfaceFriction]:
+    found: dict[str, SurfaceFriction] = {}
     name: str | None = None
     for block in blocks:
         if block.keyword == "SURFACE INTERACTION":
             name = block.value("NAME")
             if name in found:
                 raise InputError(block.where, f"interaction {name} twice", "each interaction once")
-            found[name] = Friction(NO_FRICTION, where=block.where)
+            found[name] = SurfaceFriction(NO_FRICTION, where=block.where)
         elif block.keyword == "FRICTION":
             if name is None:
                 raise InputError(block.where, "*FRICTION outside an interaction", "*SURFACE INTERACTION first")
@@ -144,7 +144,7 @@ def _interactions(blocks: list[KeywordBlock]) -> dict[str, Friction]:
     return found
 
 
-def _friction(block: KeywordBlock) -> Friction:
+def _friction(block: KeywordBlock) -> SurfaceFriction:
     if "USER" not in block.parameters:
         extra = [word for word in ("DEPVAR", "PROPERTIES") if word in block.parameters]
         if extra or len(block.data) != 1 or len(block.data[0].fields) != 1:
@@ -152,7 +152,7 @@ def _friction(block: KeywordBlock) -> Friction:
         coefficient = block.data[0].number_at(0, "a friction coefficient")
         if coefficient < 0:
             raise InputError(block.data[0].where, coefficient, "a friction coefficient >= 0")
-        return Friction(COULOMB, coefficient, where=block.where)
+        return SurfaceFriction(COULOMB, coefficient, where=block.where)
     values = [line.number_at(i, "a property") for line in block.data for i in range(len(line.fields))]
     counts = []
     for word in ("PROPERTIES", "DEPVAR"):
@@ -164,7 +164,7 @@ def _friction(block: KeywordBlock) -> Friction:
         raise InputError(
             block.where, f"PROPERTIES={counts[0]} and {len(values)} values", "as many values as PROPERTIES"
         )
-    return Friction(USER, 0.0, tuple(values), counts[1], block.where)
+    return SurfaceFriction(USER, 0.0, tuple(values), counts[1], block.where)
 
 
 def _initial(blocks: list[KeywordBlock], mesh: Mesh) -> tuple[Floats | None, Floats]:

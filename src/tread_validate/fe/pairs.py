@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from .contact_kernel import project
 from .kernel_data import USER, Bodies, Pair, Prescribed
-from .model import Friction, Model
+from .model import Model, SurfaceFriction
 from .steps import ContactPair, Step
 from .user_friction import Arguments, UserRoutine
 
@@ -100,7 +100,7 @@ def _empty() -> PairData:
     none = np.zeros(0, dtype=np.int64)
     pair = _assemble(
         none, np.zeros(0, dtype=np.bool_), np.zeros(0), np.zeros((0, 4), dtype=np.int64), np.zeros((0, 7)), np.zeros(3),
-        np.eye(3), -1, Friction(0), 0, arguments,
+        np.eye(3), -1, SurfaceFriction(0), 0, arguments,
     )  # fmt: skip
     return PairData(pair, arguments, ContactPair("", "", "", ""), none)
 
@@ -114,7 +114,7 @@ def _assemble(
     origin: Floats,
     frame: Floats,
     body: int,
-    friction: Friction,
+    friction: SurfaceFriction,
     address: int,
     arguments: Arguments,
 ) -> Pair:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..compare.quantities import tolerances
 from ..compare.runs import fe_runs
-from ..compare.tables import Row, write_rows
+from ..compare.tables import TableRow, write_rows
 from ..errors import InputError
 from ..spring import resolve_creep
 from ..study import Case, LoadedStudy, SimplifiedBelt
@@ -27,7 +27,7 @@ from .tables import (
     LevelError,
     PublishedFigure,
     SobolIndex,
-    Stiffness,
+    StiffnessRow,
 )  # fmt: skip
 
 Table = list[dict[str, Any]]
@@ -63,7 +63,7 @@ def build(
     drawn = folders.output / "figures"
     tables: dict[str, Table] = {}
 
-    def put(kind: type[Row], rows: Iterable[dict[str, Any]]) -> None:
+    def put(kind: type[TableRow], rows: Iterable[dict[str, Any]]) -> None:
         tables[kind.table] = list(rows)
         write_rows(folders.output, kind, [kind(**row) for row in tables[kind.table]])
 
@@ -86,7 +86,7 @@ def build(
                 theory += effects.theory_rows(case)
             except InputError as error:
                 say(f"no stiffness by theory for {case.case_id}: {error}")
-        put(Stiffness, theory)
+        put(StiffnessRow, theory)
     if "published" in parts:
         say("published figures")
         put(PublishedFigure, published.published_rows(cases, references, engine, pareto.LEVELS))

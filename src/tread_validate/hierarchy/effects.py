@@ -21,7 +21,7 @@ from ..spring.condensed.roll import CondensedSettings, roll
 from ..spring.shape_factor import ratios, stiffened
 from ..spring.stiffness import gent_lindley, pressure_theory, shear_theory
 from ..study import Case
-from .tables import Effect, Stiffness
+from .tables import Effect, StiffnessRow
 
 Array = NDArray[np.float64]
 
@@ -185,4 +185,6 @@ def theory_rows(case: Case) -> list[dict[str, Any]]:
         ("rocking, face stuck", found.rocking, pressure_theory(block, nu, rocking=True), None),
     ]  # fmt: skip
     rows.append(("shear", found.shear, shear_theory(block, nu), None))
-    return [dict(zip(Stiffness.header(), (case.case_id, *row, "; ".join(case.assumed())), strict=True)) for row in rows]
+    return [
+        dict(zip(StiffnessRow.header(), (case.case_id, *row, "; ".join(case.assumed())), strict=True)) for row in rows
+    ]

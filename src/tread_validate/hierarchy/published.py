@@ -122,7 +122,7 @@ def combination_rows(case: Case, levels: Sequence[str]) -> list[dict[str, Any]]:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class PublishedFeatures:
     """What a combination gives."""
 
     normal: float
@@ -131,15 +131,15 @@ class Outcome:
     late: float
 
 
-def _outcome(case: Case, level: str, combination: Combination) -> Outcome:
+def _outcome(case: Case, level: str, combination: Combination) -> PublishedFeatures:
     changed = combination.of(case)
     creep = free_rolling_creep(changed, level)
     found = scalars(run(changed.with_creep(creep), level))
     tangential = max(found.peak_positive_tangential_force, -found.peak_negative_tangential_force)
-    return Outcome(found.peak_normal_force, tangential, creep, found.late_sign_change)
+    return PublishedFeatures(found.peak_normal_force, tangential, creep, found.late_sign_change)
 
 
-def _search(case: Case, level: str, start: Combination, at_start: Outcome) -> tuple[Combination, str]:
+def _search(case: Case, level: str, start: Combination, at_start: PublishedFeatures) -> tuple[Combination, str]:
     """Solve in logarithms; forces scale with the modulus, so its factor starts where N is right."""
 
     def residual(x: Array) -> Array:
@@ -157,7 +157,9 @@ def _search(case: Case, level: str, start: Combination, at_start: Outcome) -> tu
     return Combination(*(float(v) for v in np.exp(solved.x))), note
 
 
-def _row(case: Case, level: str, what: str, combination: Combination, found: Outcome, note: str) -> dict[str, Any]:
+def _row(
+    case: Case, level: str, what: str, combination: Combination, found: PublishedFeatures, note: str
+) -> dict[str, Any]:
     pairs = ((found.normal, NORMAL), (found.tangential, TANGENTIAL), (found.creep, CREEP))
     meets_all = all(abs(value / published - 1.0) <= TOLERANCE for value, published in pairs) and found.late == 1.0
     entries = (

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Factor:
+class UncertainInput:
     """An input and its range, uniform; logarithmic for a rate.
 
     Attributes
@@ -95,32 +95,34 @@ def _temperature(case: Case, offset: float) -> Case:
 
 
 COMPOUND = (
-    Factor("modulus level", 0.8, 1.2, "of the surrogate's", scale=_modulus),
-    Factor("viscoelastic strength", 0.7, 1.3, "of the surrogate's", scale=_strength),
-    Factor("relaxation rate", -0.5, 0.5, "decades", scale=_rate),
+    UncertainInput("modulus level", 0.8, 1.2, "of the surrogate's", scale=_modulus),
+    UncertainInput("viscoelastic strength", 0.7, 1.3, "of the surrogate's", scale=_strength),
+    UncertainInput("relaxation rate", -0.5, 0.5, "decades", scale=_rate),
 )
 LAW = (
-    Factor("kinetic friction", 0.8, 1.2, "of the law's", scale=_friction),
-    Factor("static friction", 0.7, 1.1, "1", scale=_static),
+    UncertainInput("kinetic friction", 0.8, 1.2, "of the law's", scale=_friction),
+    UncertainInput("static friction", 0.7, 1.1, "1", scale=_static),
 )
 
 
-def factors_of(case: Case) -> tuple[Factor, ...]:
+def factors_of(case: Case) -> tuple[UncertainInput, ...]:
     """Return the assumed inputs of a case and their ranges."""
     depth = case.interference / MM
     common = (
         *COMPOUND,
         *LAW,
-        Factor("interference", 0.95 * depth, 1.05 * depth, "mm", _interference),
-        Factor("temperature of the rubber", -5.0, 5.0, "degC from the nominal", _temperature),
+        UncertainInput("interference", 0.95 * depth, 1.05 * depth, "mm", _interference),
+        UncertainInput("temperature of the rubber", -5.0, 5.0, "degC from the nominal", _temperature),
     )
-    path = [Factor(item.label, item.low, item.high, item.unit, _path(key=item.key)) for item in case.path.uncertain]
-    skew = (Factor("skew angle", 20.0, 40.0, "deg", _skew),) if case.block.shape == "parallelogram" else ()
+    path = [
+        UncertainInput(item.label, item.low, item.high, item.unit, _path(key=item.key)) for item in case.path.uncertain
+    ]
+    skew = (UncertainInput("skew angle", 20.0, 40.0, "deg", _skew),) if case.block.shape == "parallelogram" else ()
     return (*common, *path, *skew)
 
 
 @dataclass(frozen=True)
-class Quantity:
+class OutputQuantity:
     """An output of a pass."""
 
     name: str
@@ -128,11 +130,11 @@ class Quantity:
 
 
 FORCES = (
-    Quantity("peak normal force", "N"),
-    Quantity("peak positive tangential force", "N"),
-    Quantity("peak negative tangential force", "N"),
+    OutputQuantity("peak normal force", "N"),
+    OutputQuantity("peak positive tangential force", "N"),
+    OutputQuantity("peak negative tangential force", "N"),
 )
-CREEP = Quantity("free-rolling creep", "1")
+CREEP = OutputQuantity("free-rolling creep", "1")
 
 
 def sobol_rows(case: Case, samples: int = 256, with_creep: bool = True, seed: int = 2010) -> list[dict[str, Any]]:
@@ -174,7 +176,7 @@ def sobol_rows(case: Case, samples: int = 256, with_creep: bool = True, seed: in
     return rows
 
 
-def evaluate(case: Case, factors: Sequence[Factor], inputs: Array, with_creep: bool) -> Array:
+def evaluate(case: Case, factors: Sequence[UncertainInput], inputs: Array, with_creep: bool) -> Array:
     """Return the outputs of a pass for each row of `inputs` (n, factors), (n, 3 or 4)."""
     base = prepare(case)
     out = np.empty((inputs.shape[0], 4 if with_creep else 3))
@@ -191,7 +193,7 @@ def evaluate(case: Case, factors: Sequence[Factor], inputs: Array, with_creep: b
     return out
 
 
-def _varied(case: Case, base: BlockPass, factors: Sequence[Factor], row: Array) -> BlockPass:
+def _varied(case: Case, base: BlockPass, factors: Sequence[UncertainInput], row: Array) -> BlockPass:
     """Return the pass with the inputs of one sample; the Prony fit is not done again."""
     varied = case
     for factor, value in zip(factors, row, strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..compare.tables import Row, column
+from ..compare.tables import TableRow, column
 from ..compare.tables.row import table_row
 from ..compare.tables.runs import ASSUMED, NOTE, STATUS
 
@@ -14,7 +14,7 @@ TANGENTIAL = "largest tangential peak error over the tolerance by which the resu
 
 
 @table_row
-class LevelError(Row):
+class LevelError(TableRow):
     """One level on one case."""
 
     table = "errors"
@@ -40,7 +40,7 @@ class LevelError(Row):
 
 
 @table_row
-class Level(Row):
+class Level(TableRow):
     """One level on a group of cases."""
 
     table = "pareto"
@@ -72,7 +72,7 @@ class Level(Row):
 
 
 @table_row
-class FeMesh(Row):
+class FeMesh(TableRow):
     """One mesh of the mesh study."""
 
     table = "fe_meshes"
@@ -89,7 +89,7 @@ class FeMesh(Row):
 
 
 @table_row
-class Effect(Row):
+class Effect(TableRow):
     """What one physical effect is worth on one case."""
 
     table = "effects"
@@ -109,7 +109,7 @@ class Effect(Row):
 
 
 @table_row
-class Stiffness(Row):
+class StiffnessRow(TableRow):
     """One stiffness of the block over that of free rods."""
 
     table = "stiffness"
@@ -125,7 +125,7 @@ class Stiffness(Row):
 
 
 @table_row
-class PublishedFigure(Row):
+class PublishedFigure(TableRow):
     """One published figure of the belt run and what a level makes of it."""
 
     table = "published"
@@ -145,7 +145,7 @@ class PublishedFigure(Row):
 
 
 @table_row
-class CombinationRow(Row):
+class CombinationRow(TableRow):
     """Edge radius, patch length and modulus, and the figures that they give."""
 
     table = "combinations"
@@ -167,7 +167,7 @@ class CombinationRow(Row):
 
 
 @table_row
-class CompoundError(Row):
+class CompoundError(TableRow):
     """One error of the paper's springs with one compound."""
 
     table = "compounds"
@@ -193,7 +193,7 @@ class CompoundError(Row):
 
 
 @table_row
-class CompoundDependence(Row):
+class CompoundDependence(TableRow):
     """How far one error moves over the compounds."""
 
     table = "compound_dependence"
@@ -218,7 +218,7 @@ class CompoundDependence(Row):
 
 
 @table_row
-class Compatibility(Row):
+class Compatibility(TableRow):
     """The two coefficients of one linear compound."""
 
     table = "compatibility"
@@ -239,7 +239,7 @@ class Compatibility(Row):
 
 
 @table_row
-class SobolIndex(Row):
+class SobolIndex(TableRow):
     """Sobol indices of one quantity for one input."""
 
     table = "sobol"
@@ -265,8 +265,8 @@ class SobolIndex(Row):
     assumed: str = column(ASSUMED)
 
 
-TABLES: tuple[type[Row], ...] = (
+TABLES: tuple[type[TableRow], ...] = (
     Level, PublishedFigure, Effect, CombinationRow, CompoundDependence, CompoundError, Compatibility, SobolIndex,
-    Stiffness, FeMesh,
+    StiffnessRow, FeMesh,
 )  # fmt: skip
 """In the report's order; `LevelError` is not shown there."""

@@ -2,14 +2,14 @@
 
 from .deck import DataLine, Deck, KeywordBlock, Lines, label
 from .expand import expand, expanded_lines
-from .problem import DeckFiles, Difference, Part, Problem, agree, deck_files, differences, problem_of
+from .problem import DeckDifference, DeckFiles, Part, Problem, agree, deck_files, differences, problem_of
 from .reader import read_deck
 
 __all__ = [
     "DataLine",
     "Deck",
+    "DeckDifference",
     "DeckFiles",
-    "Difference",
     "KeywordBlock",
     "Lines",
     "Part",

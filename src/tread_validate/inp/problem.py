@@ -95,7 +95,7 @@ class Problem:
 
 
 @dataclass(frozen=True)
-class Difference:
+class DeckDifference:
     """One line in which two decks differ.
 
     Attributes
@@ -158,7 +158,7 @@ def agree(filed: Problem, today: Problem) -> bool:
     return all(next(_of_parts(old, new), None) is None for old, new in pairs)
 
 
-def differences(filed: Problem, today: Problem) -> Iterator[Difference]:
+def differences(filed: Problem, today: Problem) -> Iterator[DeckDifference]:
     """Yield the lines in which two problems differ beyond the tolerances, in the order of the deck."""
     if filed.digest == today.digest:
         return
@@ -166,7 +166,7 @@ def differences(filed: Problem, today: Problem) -> Iterator[Difference]:
         if old is None or new is None:
             here = old or new
             place = here.place(-1)
-            yield Difference(
+            yield DeckDifference(
                 place, "nothing" if old is None else old.keyword, "nothing" if new is None else new.keyword
             )
             return
@@ -175,21 +175,21 @@ def differences(filed: Problem, today: Problem) -> Iterator[Difference]:
             return  # what follows is shifted
 
 
-def _of_parts(old: Part, new: Part) -> Iterator[Difference]:
+def _of_parts(old: Part, new: Part) -> Iterator[DeckDifference]:
     found = _line_difference(old.keyword, new.keyword, ())
     if found is not None:
-        yield Difference(new.place(-1), *found)
+        yield DeckDifference(new.place(-1), *found)
     if old.digest == new.digest:
         return
     if old.count != new.count:
-        yield Difference(new.place(-1), f"{old.count} lines", f"{new.count} lines")
+        yield DeckDifference(new.place(-1), f"{old.count} lines", f"{new.count} lines")
         return
     allowed = _allowed(new)
     for index, (a, b) in enumerate(zip(old.lines, new.lines, strict=True)):
         if a != b:
             found = _line_difference(a, b, allowed)
             if found is not None:
-                yield Difference(new.place(index), *found)
+                yield DeckDifference(new.place(index), *found)
 
 
 def _allowed(part: Part) -> tuple[float, ...]:

@@ -16,7 +16,7 @@ Place = Literal["model", "step", "any"]
 
 
 @dataclass(frozen=True)
-class Keyword:
+class KeywordEntry:
     """Form of one keyword.
 
     Attributes
@@ -57,9 +57,9 @@ class Keyword:
 PARENT_OF_NAMED = {"material": ("MATERIAL",), "interaction": ("SURFACE INTERACTION",)}
 
 
-def _keyword(entry: dict[str, Any]) -> Keyword:
+def _keyword(entry: dict[str, Any]) -> KeywordEntry:
     fields, lines = entry.get("fields"), entry.get("lines", (0, -1))
-    return Keyword(
+    return KeywordEntry(
         place=entry["place"],
         required=frozenset(entry.get("required", ())),
         optional=frozenset(entry.get("optional", ())),
@@ -72,7 +72,7 @@ def _keyword(entry: dict[str, Any]) -> Keyword:
 
 
 @cache
-def keywords(dialect: str = "abaqus") -> dict[str, Keyword]:
+def keywords(dialect: str = "abaqus") -> dict[str, KeywordEntry]:
     """Return every keyword of a dialect (``abaqus`` or ``calculix``) by its full name."""
     text = (files("tread_validate.inp") / "keywords.yaml").read_text(encoding="utf-8")
     content = load_yaml(text, "keywords.yaml", fast=True)
@@ -82,7 +82,7 @@ def keywords(dialect: str = "abaqus") -> dict[str, Keyword]:
             continue
         place: Place = {"step": "step", "any": "any", "calculix": "any"}.get(group, "model")  # type: ignore[assignment]  # get widens the literals of the table
         for name in listed.split(","):
-            entry = Keyword(place, parents=PARENT_OF_NAMED.get(group, ()), open=True)
+            entry = KeywordEntry(place, parents=PARENT_OF_NAMED.get(group, ()), open=True)
             found.setdefault(" ".join(name.split()), entry)
     return found
 

@@ -33,7 +33,7 @@ UNIT_WORDS = {*PRESSURE, *FREQUENCY, *TEMPERATURE, *NONE, *STRAIN, *SPEED, *ANGL
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Measurand:
     """A quantity: key, words for it, names in exports (letters, digits and primes only), units, option of its unit."""
 
     key: str
@@ -44,56 +44,56 @@ class Quantity:
 
 
 DMA = (
-    Quantity(
+    Measurand(
         "temperature", "temperature",
         ("temperature", "temp", "t", "sampletemperature", "tsample", "ts", "samptemp", "temperatur",
          "probentemperatur"),
         TEMPERATURE, "--temperature-unit",
     ),
-    Quantity(
+    Measurand(
         "frequency", "frequency",
         ("frequency", "freq", "f", "angularfrequency", "angfrequency", "angfreq", "omega", "ω", "w",
          "frequenz", "kreisfrequenz"),
         FREQUENCY, "--frequency-unit",
     ),
-    Quantity(
+    Measurand(
         "storage", "E'",
         ("storagemodulus", "storage", "estor", "estorage", "e'", "eprime", "estore", "storagemod",
          "tensilestoragemodulus", "storagemoduluse'", "e'storagemodulus", "speichermodul",
          "speichermodule'"), PRESSURE, "--modulus-unit",
     ),
-    Quantity(
+    Measurand(
         "loss", "E''",
         ("lossmodulus", "loss", "eloss", "e''", "eprimeprime", "edoubleprime", "lossmod", "tensilelossmodulus",
          "lossmoduluse''", "e''lossmodulus", "verlustmodul", "verlustmodule''"), PRESSURE, "--modulus-unit",
     ),
-    Quantity(
+    Measurand(
         "complex", "|E*|",
         ("complexmodulus", "e*", "|e*|", "dynamicmodulus", "ecomplex", "absolutemodulus", "komplexermodul"),
         PRESSURE, "--modulus-unit",
     ),
-    Quantity(
+    Measurand(
         "tan_delta", "tan delta",
         ("tandelta", "tand", "tanδ", "tan", "lossfactor", "tandel", "tan(delta)", "tan(d)", "tan(δ)",
          "verlustfaktor"), NONE,
     ),
-    Quantity("phase", "delta", ("phase", "phaseangle", "delta", "δ", "lossangle", "phasenwinkel"), ANGLE,
+    Measurand("phase", "delta", ("phase", "phaseangle", "delta", "δ", "lossangle", "phasenwinkel"), ANGLE,
              "--phase-unit"),
-    Quantity("set", "sweep", ("set", "sweep", "sweepnumber", "sweepno"), NONE),
+    Measurand("set", "sweep", ("set", "sweep", "sweepnumber", "sweepno"), NONE),
 )  # fmt: skip
 FRICTION = (
-    Quantity("pressure", "pressure", ("pressure", "p", "contactpressure", "nominalpressure", "normalpressure"),
+    Measurand("pressure", "pressure", ("pressure", "p", "contactpressure", "nominalpressure", "normalpressure"),
              PRESSURE, "--pressure-unit"),
-    Quantity("slip_speed", "slip speed", ("slipspeed", "slidingspeed", "slidingvelocity", "slipvelocity", "velocity",
+    Measurand("slip_speed", "slip speed", ("slipspeed", "slidingspeed", "slidingvelocity", "slipvelocity", "velocity",
              "speed", "v"), SPEED, "--speed-unit"),
-    Quantity("coefficient", "friction coefficient", ("frictioncoefficient", "coefficientoffriction", "cof", "mu", "µ",
+    Measurand("coefficient", "friction coefficient", ("frictioncoefficient", "coefficientoffriction", "cof", "mu", "µ",
              "μ", "friction"), {**NONE, "%": Unit(0.01)}, "--coefficient-unit"),
-    Quantity("temperature", "temperature", ("temperature", "temp", "t", "rubbertemperature"), TEMPERATURE,
+    Measurand("temperature", "temperature", ("temperature", "temp", "t", "rubbertemperature"), TEMPERATURE,
              "--temperature-unit"),
-    Quantity("run", "run", ("run", "repeat", "repetition", "runnumber"), NONE),
+    Measurand("run", "run", ("run", "repeat", "repetition", "runnumber"), NONE),
 )  # fmt: skip
 STRAIN_SWEEP = (
-    Quantity("strain", "strain", ("strain", "strainamplitude", "dynamicstrain", "amplitude", "ε", "e0"), STRAIN,
+    Measurand("strain", "strain", ("strain", "strainamplitude", "dynamicstrain", "amplitude", "ε", "e0"), STRAIN,
              "--strain-unit"),
     next(quantity for quantity in DMA if quantity.key == "storage"),
 )  # fmt: skip

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from ..errors import InputError, one_line
 from .cells import CellBlock
-from .quantities import SHEAR, Quantity, Unit, bare_name, choices
+from .quantities import SHEAR, Measurand, Unit, bare_name, choices
 
 BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(]\s*(?P<unit>[^\[\]()]*)\s*[\])]\s*$")
 DIVIDED = re.compile(r"^(?P<name>.*?)\s*(?:/|\bin\b)\s*(?P<unit>\S+)\s*$")
@@ -40,7 +40,7 @@ class Recognised:
     unit_name: str
     unit: Unit
 
-    def told(self, quantity: Quantity) -> str:
+    def told(self, quantity: Measurand) -> str:
         """Return "E' = column 3 'E_stor' in MPa"."""
         unit = f" in {self.unit_name}" if self.unit_name else ""
         return f"{quantity.told} = column {self.column + 1} '{self.heading}'{unit}"
@@ -55,7 +55,7 @@ def split_heading(heading: str, units: Mapping[str, Unit]) -> tuple[str, str]:
     return heading, ""
 
 
-def recognise(block: CellBlock, quantities: tuple[Quantity, ...], reading: Reading) -> dict[str, Recognised]:
+def recognise(block: CellBlock, quantities: tuple[Measurand, ...], reading: Reading) -> dict[str, Recognised]:
     """Return the column of each quantity that the block has, by key.
 
     Raises `InputError` where two columns could be one quantity, the user's column is not there, or a unit is not said.
@@ -79,7 +79,7 @@ def recognise(block: CellBlock, quantities: tuple[Quantity, ...], reading: Readi
     return found
 
 
-def _candidates(block: CellBlock, quantity: Quantity, reading: Reading) -> list[tuple[int, str]]:
+def _candidates(block: CellBlock, quantity: Measurand, reading: Reading) -> list[tuple[int, str]]:
     """Return columns that may be the quantity, each with the unit that its heading says."""
     chosen = reading.columns.get(quantity.key)
     if chosen is not None:
@@ -93,7 +93,7 @@ def _candidates(block: CellBlock, quantity: Quantity, reading: Reading) -> list[
     return found
 
 
-def _chosen(block: CellBlock, quantity: Quantity, chosen: str) -> int:
+def _chosen(block: CellBlock, quantity: Measurand, chosen: str) -> int:
     if chosen.isdigit() and 1 <= int(chosen) <= len(block.names):
         return int(chosen) - 1
     places = [k for k, name in enumerate(block.names) if name.strip() == chosen.strip()]
@@ -110,7 +110,7 @@ def _with_data(block: CellBlock, candidates: list[tuple[int, str]]) -> list[tupl
     return [(k, unit) for k, unit in candidates if any(row[k].strip() for row in block.cells)]
 
 
-def _resolved(block: CellBlock, quantity: Quantity, column: int, unit: str, reading: Reading) -> Recognised:
+def _resolved(block: CellBlock, quantity: Measurand, column: int, unit: str, reading: Reading) -> Recognised:
     said = reading.units.get(quantity.option, "") if quantity.option else ""
     name = said or unit
     if name.strip().lower() not in quantity.units:

@@ -11,7 +11,7 @@ from ..files import write_text
 from ..model_file import read_model
 
 
-class Outcome(BaseModel):
+class RunOutcome(BaseModel):
     """One case by one model, as it is filed beside the history.
 
     Attributes
@@ -42,11 +42,11 @@ class Outcome(BaseModel):
     code_digest: str
 
 
-def write_outcome(path: Path | str, outcome: Outcome) -> None:
+def write_outcome(path: Path | str, outcome: RunOutcome) -> None:
     """Write an outcome as JSON, atomically."""
     write_text(path, outcome.model_dump_json(indent=2) + "\n")
 
 
-def read_outcome(path: Path | str) -> Outcome:
+def read_outcome(path: Path | str) -> RunOutcome:
     """Read an outcome; raises `InputError` for what is none."""
-    return read_model(path, Outcome)  # JSON is YAML
+    return read_model(path, RunOutcome)  # JSON is YAML

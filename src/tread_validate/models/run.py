@@ -19,7 +19,7 @@ from ..study.own_model import CommandModel, HistoriesModel, OwnModel, PythonMode
 from .checks import check_history
 from .code import code_of
 from .command_model import find_program, run_command, working_folder
-from .outcome import Outcome, write_outcome
+from .outcome import RunOutcome, write_outcome
 from .process import Finished
 from .python_model import PythonRunner
 from .trust import executes, require_trust
@@ -37,7 +37,7 @@ class Job:
         The model's name in the study.
     documents : mapping of case id to CaseFile
     folder : Path
-        For ``ID.csv`` (only of cases that ran), ``ID.json`` (`Outcome`) and logs.
+        For ``ID.csv`` (only of cases that ran), ``ID.json`` (`RunOutcome`) and logs.
     """
 
     name: str
@@ -59,7 +59,7 @@ def run_model(
     trusted: bool = False,
     jobs: int = 1,
     progress: Progress = iter,
-) -> tuple[Outcome, ...]:
+) -> tuple[RunOutcome, ...]:
     """Run one model of the study over `cases` (creep ratios resolved) and file histories and outcomes in `folder`.
 
     `jobs` cases run at a time where the model is a command that runs one. A case that fails loses nothing but itself:
@@ -89,7 +89,7 @@ def run_model(
         return tuple(_all(job, scratch, progress, jobs))
 
 
-def _all(job: Job, scratch: Path, progress: Progress, jobs: int) -> Iterator[Outcome]:
+def _all(job: Job, scratch: Path, progress: Progress, jobs: int) -> Iterator[RunOutcome]:
     if isinstance(job.model, HistoriesModel):
         place = job.root / job.model.folder
         if not place.is_dir():
@@ -119,7 +119,7 @@ def _all(job: Job, scratch: Path, progress: Progress, jobs: int) -> Iterator[Out
         return
     command = job.model
 
-    def one(case: Case) -> Outcome:
+    def one(case: Case) -> RunOutcome:
         target = made / f"{case.case_id}.csv"
         fill = {"case": files / f"{case.case_id}.json", "history": target}
         return _filed(job, case, target, run_command(command, job.root, fill, job.folder / f"{case.case_id}.log"))
@@ -131,7 +131,7 @@ def _all(job: Job, scratch: Path, progress: Progress, jobs: int) -> Iterator[Out
             yield future.result()
 
 
-def _filed(job: Job, case: Case, made: Path, done: Finished | None, shared: bool = False) -> Outcome:
+def _filed(job: Job, case: Case, made: Path, done: Finished | None, shared: bool = False) -> RunOutcome:
     """Check what a model left for a case, file it with what it is bound to, and return the outcome."""
     digest = case.problem_digest()
     target = job.folder / f"{case.case_id}.csv"
@@ -144,7 +144,7 @@ def _filed(job: Job, case: Case, made: Path, done: Finished | None, shared: bool
             fault = str(error)
         else:
             _bind(history, job, case, digest).write_csv(target)
-    outcome = Outcome(
+    outcome = RunOutcome(
         model=job.name,
         case_id=case.case_id,
         status="failed" if fault else "ran",

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..history import History
-from .outcome import Outcome
+from .outcome import RunOutcome
 
 COLUMNS = (
     "case_id", "model", "status", "message", "peak_normal_force_N", "peak_tangential_force_N",
@@ -18,7 +18,7 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def summary_csv(outcomes: Sequence[Outcome], folder: Path) -> str:
+def summary_csv(outcomes: Sequence[RunOutcome], folder: Path) -> str:
     """Return the summary of a folder of histories as CSV text; what is not known is left empty."""
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, restval="", lineterminator="\n")

@@ -20,7 +20,7 @@ from ..study.own_model import HistoriesModel, OwnModel
 VARIABLE = "TREAD_VALIDATE_TRUST_MODELS"
 
 
-class Settings(BaseModel):
+class TrustSettings(BaseModel):
     """The user's own settings on this computer."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -65,5 +65,5 @@ def _in_trusted_folder(source: Path) -> bool:
     if not file.is_file():
         return False
     place = source.resolve()
-    folders = read_model(file, Settings).trusted_folders
+    folders = read_model(file, TrustSettings).trusted_folders
     return any(place.is_relative_to(folder.expanduser().resolve()) for folder in folders)

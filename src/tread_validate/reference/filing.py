@@ -25,7 +25,7 @@ NAME_DIGITS = 8
 
 
 @dataclass(frozen=True)
-class Run:
+class FinishedRun:
     """A finished run, ready to be filed.
 
     Attributes
@@ -67,7 +67,7 @@ def read_record(history_file: Path) -> Mapping[str, Any]:
     return record
 
 
-def read_run(history_file: Path, deck: DeckFiles, engine: str | None = None) -> Run:
+def read_run(history_file: Path, deck: DeckFiles, engine: str | None = None) -> FinishedRun:
     """Read a run and its record and hold them against the deck; raises `InputError` where they do not belong together.
 
     Parameters
@@ -89,10 +89,10 @@ def read_run(history_file: Path, deck: DeckFiles, engine: str | None = None) -> 
         raise InputError(
             deck.deck, found, f"{record['deck_digest'][:12]}, the deck of {record_file.name} (run it again)"
         )
-    return Run(history_file, record, deck.problem, deck.text_digest)
+    return FinishedRun(history_file, record, deck.problem, deck.text_digest)
 
 
-def file_run(store: FeStore, run: Run, *, study: str, replace: bool = False) -> Path:
+def file_run(store: FeStore, run: FinishedRun, *, study: str, replace: bool = False) -> Path:
     """File a run and return its folder; a run of an equal problem gives way to it.
 
     Raises

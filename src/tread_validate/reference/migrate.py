@@ -17,7 +17,7 @@ from ..source_code import UNKNOWN
 from ..study import Case
 from ..yaml_text import read_mapping, write_yaml
 from .fe_store import ENGINE_PARTS, FeStore
-from .filing import Run, file_run
+from .filing import FinishedRun, file_run
 from .mesh_errors import SCHEMA, applies_to
 
 
@@ -66,7 +66,7 @@ class _Aside(FeStore):
         self._entries[engine] = tuple(self._entry(path, engine) for path in folders)
 
 
-def _old_run(record_file: Path, engine: str, deck: DeckFiles) -> Run:
+def _old_run(record_file: Path, engine: str, deck: DeckFiles) -> FinishedRun:
     record = read_mapping(record_file)
     history = record_file.with_suffix(".csv")
     if not history.is_file() or record.get("history_sha256") != sha256_file(history):
@@ -79,7 +79,7 @@ def _old_run(record_file: Path, engine: str, deck: DeckFiles) -> Run:
         )
     kept = {key: value for key, value in record.items() if not key.startswith("mesh_error")}
     new = {"case_id": record_file.stem, **kept, "engine": engine, "code": UNKNOWN, "deck_digest": deck.problem.digest}
-    return Run(history, new, deck.problem, deck.text_digest)
+    return FinishedRun(history, new, deck.problem, deck.text_digest)
 
 
 def old_deck_digest(deck: DeckFiles) -> str:

@@ -17,7 +17,7 @@ FALSE = 0.5  # of a revolution: a trigger sooner than this after another is fals
 LIKE = 0.2  # departure of a revolution from the usual duration, relative, with which it counts as one
 
 
-class Marks(NamedTuple):
+class RevolutionMarks(NamedTuple):
     """Times in s at which revolutions start, and how many triggers were missed and false."""
 
     times: Array
@@ -25,13 +25,13 @@ class Marks(NamedTuple):
     false: int
 
 
-def revolution_marks(record: RigRecord) -> Marks:
+def revolution_marks(record: RigRecord) -> RevolutionMarks:
     """Return the marks, to a fraction of a sample.
 
     Raises `InputError` for a trigger without pulses and for fewer than two whole revolutions.
     """
     if record.trigger is None:
-        return Marks(_by_angle(record), 0, 0)
+        return RevolutionMarks(_by_angle(record), 0, 0)
     found = _by_trigger(record.trigger, record.sampling_rate, record.source)
     if found.size < 3:
         raise InputError(record.source, f"{found.size} trigger(s)", "at least 3: two whole revolutions")
@@ -51,7 +51,7 @@ def revolution_marks(record: RigRecord) -> Marks:
         kept.append(time)
     if len(kept) < 3:
         raise InputError(record.source, f"{len(kept)} trigger(s)", "at least 3: two whole revolutions")
-    return Marks(np.array(kept), missed, false)
+    return RevolutionMarks(np.array(kept), missed, false)
 
 
 def _by_trigger(trigger: Array, rate: float, source: str) -> Array:

@@ -39,7 +39,7 @@ from .workflow import read_rules
 
 
 @dataclass(frozen=True)
-class Places:
+class ReportPlaces:
     """Where a report takes its data from, and where it goes."""
 
     tables: Path
@@ -94,7 +94,7 @@ def build_report(
     InputError
         For a missing table or column, a wrong study or a damaged history.
     """
-    places = Places(
+    places = ReportPlaces(
         Path(tables_dir),
         Path(spring_dir),
         Path(reference_dir),
@@ -111,7 +111,7 @@ def build_report(
     return report
 
 
-def compose(study_path: Path, places: Places) -> Report:
+def compose(study_path: Path, places: ReportPlaces) -> Report:
     """Read everything, draw the figures into ``out/figures`` and return the report's content."""
     study = load_study(study_path)
     tables = read_tables(places.tables)
@@ -174,7 +174,7 @@ def compose(study_path: Path, places: Places) -> Report:
     )
 
 
-def _workflow(places: Places) -> Section | None:
+def _workflow(places: ReportPlaces) -> Section | None:
     """Return the workflow's rule graph; its run times stand on a page of their own, for they differ from run to run."""
     if places.workflow is None or not places.workflow.is_file():
         return None
@@ -183,7 +183,7 @@ def _workflow(places: Places) -> Section | None:
     return Section("workflow", "The workflow", (*drawn, words), page_only=True)
 
 
-def _copy_tables(places: Places) -> None:
+def _copy_tables(places: ReportPlaces) -> None:
     target = places.out / "tables"
     target.mkdir(parents=True, exist_ok=True)
     for path in sorted(places.tables.glob("*.csv")):

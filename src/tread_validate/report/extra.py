@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..compare.tables import Row as ResultRow
+from ..compare.tables import TableRow as ResultRow
 from ..compare.tables import read_rows
 from ..errors import InputError
 from ..files import read_text, write_text

@@ -7,7 +7,7 @@ from typing import Any
 
 from .. import provenance
 from ..compare.tables import PublishedRow, cell
-from ..compare.tables import Row as ResultRow
+from ..compare.tables import TableRow as ResultRow
 from . import wording
 from .content import Cell, Column, Item, Paragraph, Row, Section, Table
 from .marks import Marks

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..files import write_text
 from .landing import HEAD
-from .workflow import JobTime, Rule, job_times, read_rules
+from .workflow import JobTime, WorkflowRule, job_times, read_rules
 
 STYLE = "table { border-collapse: collapse; width: 100%; } th, td { text-align: left; padding: .25rem .6rem; } "
 STYLE += "td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; } tr { border-bottom: 1px solid #8884; }"
@@ -43,7 +43,7 @@ def write_run_times(graph: Path, out: Path, began: float | None = None, root: Pa
     write_text(out, f'{head}{body}<p><a href="index.html">The report</a></p>\n</body>\n</html>\n')
 
 
-def _row(rule: Rule, times: Sequence[JobTime], began: float | None) -> str:
+def _row(rule: WorkflowRule, times: Sequence[JobTime], began: float | None) -> str:
     if not times:
         words = "has not run here" if rule.benchmark else "is not timed"
         return f"<tr><td>{html.escape(rule.name)}</td><td class=n>–</td><td colspan=5>{words}</td></tr>"

@@ -17,7 +17,7 @@ MEASURED = ("s", "max_rss", "cpu_time")  # columns of a Snakemake benchmark: sec
 
 
 @dataclass(frozen=True)
-class Rule:
+class WorkflowRule:
     """A rule: its name, the rules whose files it reads, and the pattern of its benchmark files (empty: not timed)."""
 
     name: str
@@ -37,14 +37,14 @@ class JobTime:
     ended: float
 
 
-def read_rules(path: Path) -> tuple[Rule, ...]:
+def read_rules(path: Path) -> tuple[WorkflowRule, ...]:
     """Read the workflow's note of its rules: ``name;needed,needed;benchmark pattern`` a line."""
     found = []
     for line, text in enumerate(read_text(path).splitlines(), start=1):
         parts = text.split(";")
         if len(parts) != 3 or not parts[0]:
             raise InputError(f"{path}:{line}", text, "name;needed rules;benchmark")
-        found.append(Rule(parts[0], tuple(filter(None, parts[1].split(","))), parts[2]))
+        found.append(WorkflowRule(parts[0], tuple(filter(None, parts[1].split(","))), parts[2]))
     names = {rule.name for rule in found}
     unknown = [name for rule in found for name in rule.needs if name not in names]
     if unknown:
@@ -52,12 +52,12 @@ def read_rules(path: Path) -> tuple[Rule, ...]:
     return tuple(found)
 
 
-def job_times(rules: Sequence[Rule], root: Path = Path()) -> tuple[JobTime, ...]:
+def job_times(rules: Sequence[WorkflowRule], root: Path = Path()) -> tuple[JobTime, ...]:
     """Return the times of all jobs whose benchmark file is there; patterns are relative to `root`."""
     return tuple(time for rule in rules if rule.benchmark for time in _times(rule, root))
 
 
-def _times(rule: Rule, root: Path) -> list[JobTime]:
+def _times(rule: WorkflowRule, root: Path) -> list[JobTime]:
     pattern = re.sub(r"{[^}]*}", "*", rule.benchmark)
     names = re.compile(re.sub(r"\\{[^}]*\\}", "(.+)", re.escape(rule.benchmark)))
     found = []
@@ -75,7 +75,7 @@ def _times(rule: Rule, root: Path) -> list[JobTime]:
     return found
 
 
-def ancestors(rules: Sequence[Rule], name: str) -> set[str]:
+def ancestors(rules: Sequence[WorkflowRule], name: str) -> set[str]:
     """Return the rules that a rule needs, directly or not."""
     needs = {rule.name: rule.needs for rule in rules}
     found: set[str] = set()
@@ -88,13 +88,13 @@ def ancestors(rules: Sequence[Rule], name: str) -> set[str]:
     return found
 
 
-def direct(rules: Sequence[Rule], rule: Rule) -> tuple[str, ...]:
+def direct(rules: Sequence[WorkflowRule], rule: WorkflowRule) -> tuple[str, ...]:
     """Return what a rule needs, less what another of its needs needs already."""
     implied = {name for need in rule.needs for name in ancestors(rules, need)}
     return tuple(name for name in rule.needs if name not in implied)
 
 
-def columns(rules: Sequence[Rule]) -> list[list[Rule]]:
+def columns(rules: Sequence[WorkflowRule]) -> list[list[WorkflowRule]]:
     """Place the rules in columns: each stands right of all that it needs."""
     place: dict[str, int] = {}
     left = list(rules)

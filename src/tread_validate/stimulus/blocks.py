@@ -9,7 +9,7 @@ from ..errors import InputError
 from ..history import History
 from ..study import Case
 from ..units import MM
-from .pitch import PitchSequence, Placement
+from .pitch import PitchSequence, RibBlocks
 
 SAME_LENGTH = 1e-6  # m
 
@@ -23,7 +23,7 @@ def belt_case(case: Case) -> Case:
     return case
 
 
-def resized(case: Case, placement: Placement) -> Case:
+def resized(case: Case, placement: RibBlocks) -> Case:
     """Return the case with the block of a placement: its length and, where the rib gives one, its width.
 
     Raises
@@ -43,11 +43,11 @@ def resized(case: Case, placement: Placement) -> Case:
     return replace(case, block=block)
 
 
-def by_model(case: Case, run: Callable[[Case], History]) -> Callable[[Placement], History]:
+def by_model(case: Case, run: Callable[[Case], History]) -> Callable[[RibBlocks], History]:
     """Return the history of each block size by running a model, once per size."""
     known: dict[tuple[float, float | None], History] = {}
 
-    def history_of(placement: Placement) -> History:
+    def history_of(placement: RibBlocks) -> History:
         size = (placement.block_length, placement.block_width)
         if size not in known:
             known[size] = run(resized(case, placement))
@@ -56,10 +56,10 @@ def by_model(case: Case, run: Callable[[Case], History]) -> Callable[[Placement]
     return history_of
 
 
-def by_history(case: Case, history: History, where: str) -> Callable[[Placement], History]:
+def by_history(case: Case, history: History, where: str) -> Callable[[RibBlocks], History]:
     """Return one given history for every block; the sequence must have no other block than the case's."""
 
-    def history_of(placement: Placement) -> History:
+    def history_of(placement: RibBlocks) -> History:
         if resized(case, placement) is not case:
             width = case.width if placement.block_width is None else placement.block_width
             raise InputError(

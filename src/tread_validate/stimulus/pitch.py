@@ -34,7 +34,7 @@ class Rib(Strict):
 
 
 @dataclass(frozen=True)
-class Placement:
+class RibBlocks:
     """Blocks of one size on one rib, and where on the circumference their leading ends are.
 
     Attributes
@@ -96,9 +96,9 @@ class PitchSequence(Sourced):
         """Return the number of blocks on a rib."""
         return rib.repeat * len(rib.sequence)
 
-    def placements(self) -> tuple[Placement, ...]:
+    def placements(self) -> tuple[RibBlocks, ...]:
         """Return every block of every rib, those of one size together."""
-        placed: list[Placement] = []
+        placed: list[RibBlocks] = []
         for rib in self.ribs:
             by_length: dict[float, list[float]] = {}
             position = rib.offset_mm
@@ -107,7 +107,7 @@ class PitchSequence(Sourced):
                 by_length.setdefault(pitch.block_mm, []).append(position * MM)
                 position += pitch.block_mm + pitch.gap_mm
             width = None if rib.width_mm is None else rib.width_mm * MM
-            placed += [Placement(rib.name, length * MM, width, tuple(at)) for length, at in by_length.items()]
+            placed += [RibBlocks(rib.name, length * MM, width, tuple(at)) for length, at in by_length.items()]
         return tuple(placed)
 
 

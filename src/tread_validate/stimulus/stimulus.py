@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..history import History
 from .piecewise import integral, transform
-from .pitch import PitchSequence, Placement
+from .pitch import PitchSequence, RibBlocks
 
 LONGEST_STEP = 50e-6  # s, of the written time signal
 OPEN_END = 0.05  # of the peak: above it a history has been cut off; corners of a mesh touch a little before t = 0
@@ -91,7 +91,7 @@ def amplitude(lines: NDArray[np.complex128]) -> NDArray[np.float64]:
 def superpose(
     sequence: PitchSequence,
     speed: float,
-    history_of: Callable[[Placement], History],
+    history_of: Callable[[RibBlocks], History],
     *,
     label: str = "",
     highest_frequency: float = 1000.0,
@@ -105,7 +105,7 @@ def superpose(
     sequence : PitchSequence
     speed : float, m/s
         Belt speed, > 0.
-    history_of : function of a `Placement` to a `History`
+    history_of : function of a `RibBlocks` to a `History`
         The block's forces on a clock that begins at its first contact.
     highest_frequency : float, Hz
         Lines are given up to here.

@@ -18,7 +18,7 @@ from .compound import (
 )
 from .document import Study
 from .load import LoadedStudy, load_study
-from .settings import DeckSettings, SpringSettings, Tolerance
+from .settings import DeckSettings, SpringSettings, ToleranceEntry
 from .shift import ArrheniusShift, ShiftTable, TimeShift, Wlf
 
 __all__ = [
@@ -26,5 +26,5 @@ __all__ = [
     "FractionalZener", "Friction", "FrictionTable", "Huemer", "HuemerFile", "LibraryCompound", "LoadedStudy",
     "MeasuredBelt", "PathEntry", "Power", "PronyCompound", "PronyFile", "PronyTerm", "Rig", "ShiftTable",
     "SimplifiedBelt", "Sipe", "SpringPot", "SpringPots", "SpringSettings", "Study", "SweepFile", "TimeShift",
-    "Tolerance", "Wlf", "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
+    "ToleranceEntry", "Wlf", "conditions_digest", "load_study", "load_yaml", "problems_digest", "with_mesh",
 ]  # fmt: skip

@@ -12,7 +12,7 @@ from ..geometry import AnyPath, Block
 from .compound import NamedCompound
 from .own_model import OwnModel
 from .run import Run
-from .settings import DeckSettings, PathMesh, SpringSettings, Tolerance
+from .settings import DeckSettings, PathMesh, SpringSettings, ToleranceEntry
 
 
 class Study(Strict):
@@ -35,7 +35,7 @@ class Study(Strict):
     mesh_of_path: Annotated[dict[Name, PathMesh], Numerics("deck")] = Field(
         {}, description="what of the decks' mesh is not as `deck` says, by path"
     )
-    tolerances: Annotated[dict[str, Tolerance], Label("what is good enough: judges runs, changes none")] = Field(
+    tolerances: Annotated[dict[str, ToleranceEntry], Label("what is good enough: judges runs, changes none")] = Field(
         {}, description="errors that are good enough, by quantity or score; the rest keep their defaults"
     )
     engine: Annotated[

@@ -27,7 +27,7 @@ class SpringSettings(Strict):
         return tuple(dict.fromkeys(current_name(name) for name in names))
 
 
-class Tolerance(Strict):
+class ToleranceEntry(Strict):
     """How large an error is good enough for what the study is for."""
 
     value: Positive = Field(description="largest error, as a share of what the quantity is judged by")

@@ -28,7 +28,7 @@ from .table import ERRORS, Point, point_of, table_text
 
 
 @dataclass(frozen=True)
-class Settings:
+class MapSettings:
     """How much of the map is made: points, minutes after which no new one begins, processes side by side."""
 
     runs: int
@@ -36,7 +36,7 @@ class Settings:
     jobs: int = 1
 
 
-def build(base: Case, output: Path, settings: Settings, say: Callable[[str], None]) -> tuple[Point, ...]:
+def build(base: Case, output: Path, settings: MapSettings, say: Callable[[str], None]) -> tuple[Point, ...]:
     """Run what is missing, write table, record (what made it) and figures, and return the points.
 
     Raises `InputError` where no point is done yet.

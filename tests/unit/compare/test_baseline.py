@@ -19,7 +19,7 @@ from tread_validate.compare.baseline.movement import movements
 from tread_validate.compare.baseline.output import delta_csv, delta_junit, delta_markdown, summary
 from tread_validate.compare.baseline.store import Acceptance, load_baseline, save_baseline
 from tread_validate.compare.baseline.trend import read_trend
-from tread_validate.compare.tables import Delta, MetricRow, PeakRow, Row, read_rows, write_rows
+from tread_validate.compare.tables import Delta, MetricRow, PeakRow, TableRow, read_rows, write_rows
 from tread_validate.errors import InputError
 
 FACTS = Acceptance("a test", "somebody", "2026-01-01T00:00:00Z", "0123456789ab", "0.1.0", "liu2010", "digest")
@@ -33,7 +33,7 @@ def baseline(workspace: Any, tmp_path: Path) -> Path:
     return tmp_path / "baseline"
 
 
-def changed(folder: Path, kind: type[Row], which: dict[str, Any], **values: Any) -> int:
+def changed(folder: Path, kind: type[TableRow], which: dict[str, Any], **values: Any) -> int:
     """Change columns of the rows of a table that have the given values; return how many rows it were."""
     rows, count = [], 0
     for row in read_rows(folder / f"{kind.table}.csv", kind):

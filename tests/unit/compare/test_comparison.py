@@ -20,7 +20,7 @@ from tread_validate.compare.scores.comparison import scalar_row
 from tread_validate.compare.scores.uncertainty import from_mesh_error
 from tread_validate.errors import InputError
 from tread_validate.history import History
-from tread_validate.study import Tolerance
+from tread_validate.study import ToleranceEntry
 
 FINITE = st.floats(-1e3, 1e3)
 SIZE = st.floats(0, 1e3)
@@ -140,8 +140,8 @@ def test_a_tolerance_does_not_jump(reference: float, step: float) -> None:
 def test_a_study_chooses_what_is_good_enough() -> None:
     """Twenty per cent for the peak, a floor of 5 N for the tangential one; the rest keep their defaults."""
     own = {
-        "peak_normal_force": Tolerance(value=0.2, reason="a screening"),
-        "peak_positive_tangential_force": Tolerance(value=0.1, floor=5.0, reason="a screening"),
+        "peak_normal_force": ToleranceEntry(value=0.2, reason="a screening"),
+        "peak_positive_tangential_force": ToleranceEntry(value=0.1, floor=5.0, reason="a screening"),
     }
     judged = tolerances(own)
     assert judged["peak_normal_force"].criterion == "20 % of the reference"
@@ -158,11 +158,15 @@ def test_a_study_chooses_what_is_good_enough() -> None:
 @pytest.mark.parametrize(
     ("name", "chosen", "match"),
     [
-        ("peak_farce", Tolerance(value=0.1, reason="r"), r"study\.yaml: tolerances\.peak_farce: got an unknown name"),
-        ("normal_impulse", Tolerance(value=0.1, floor=1.0, reason="r"), r"normal_impulse\.floor: got 1"),
+        (
+            "peak_farce",
+            ToleranceEntry(value=0.1, reason="r"),
+            r"study\.yaml: tolerances\.peak_farce: got an unknown name",
+        ),
+        ("normal_impulse", ToleranceEntry(value=0.1, floor=1.0, reason="r"), r"normal_impulse\.floor: got 1"),
     ],
 )
-def test_a_tolerance_of_nothing_is_refused(name: str, chosen: Tolerance, match: str) -> None:
+def test_a_tolerance_of_nothing_is_refused(name: str, chosen: ToleranceEntry, match: str) -> None:
     """A name that is no quantity, and a floor where none is."""
     with pytest.raises(InputError, match=match):
         tolerances({name: chosen}, "study.yaml")

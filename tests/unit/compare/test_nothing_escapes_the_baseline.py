@@ -20,8 +20,8 @@ from tread_validate.compare.tables import (
     Ensemble,
     MetricRow,
     Residual,
-    Row,
     Sensitivity,
+    TableRow,
     read_rows,
     write_rows,
 )  # fmt: skip
@@ -65,7 +65,7 @@ def test_every_word_and_every_number_is_held(name: str, copy: Any, baseline: Pat
         assert found == [column.name] or (column.name == "status" and found), column.name
 
 
-def _changed(row: Row, name: str, kind: str) -> Row | None:
+def _changed(row: TableRow, name: str, kind: str) -> TableRow | None:
     """Return the row with another value in one column; None where it is empty."""
     if name not in row.__dataclass_fields__:
         key, value = next((key, value) for key, value in row.values.items() if name.startswith(key))  # type: ignore[attr-defined]
@@ -144,7 +144,7 @@ def test_a_larger_mesh_error_of_a_reference_is_caught(copy: Any, baseline: Path)
 
 @pytest.mark.parametrize("kind", [Ensemble, Sensitivity, Difference, Residual, ClaimRow, MetricRow])
 def test_a_number_that_moved_by_a_thousandth_is_caught_in_every_table(
-    kind: type[Row], copy: Any, baseline: Path
+    kind: type[TableRow], copy: Any, baseline: Path
 ) -> None:
     """The tables that nothing held: one number of the first row that has one, by a thousandth of itself and of one."""
     rows = list(read_rows(copy.tables / f"{kind.table}.csv", kind))

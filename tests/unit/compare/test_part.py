@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tread_validate.compare.part import Part
+from tread_validate.compare.part import StudyPart
 from tread_validate.compare.tables import Coefficient
 
 ORDER = ("fe:embedded", "spring:paper", "spring:shape_factor", "spring:condensed")
@@ -20,6 +20,6 @@ def coefficient(source: str) -> Coefficient:
 def test_models_keep_the_study_s_order_whichever_is_asked_for(asked: str) -> None:
     """A pair of sources is named by their order: it must not depend on which of them ran now."""
     others = tuple(coefficient(source) for source in ORDER[1:] if source != f"spring:{asked}")
-    part = Part((asked,), (), None, others)
+    part = StudyPart((asked,), (), None, others)
     found = [coefficient("fe:embedded"), coefficient(f"spring:{asked}")]
     assert [row.source for row in part.coefficients(found, (*ORDER, *part.sources))] == list(ORDER)

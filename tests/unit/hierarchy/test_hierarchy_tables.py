@@ -12,7 +12,7 @@ from tread_validate.hierarchy.rate_response import rig_table
 from tread_validate.history import History
 from tread_validate.material import prony_series
 from tread_validate.spring import run
-from tread_validate.study import Tolerance, load_study
+from tread_validate.study import ToleranceEntry, load_study
 
 
 @pytest.fixture(scope="module")
@@ -155,7 +155,7 @@ def test_the_hierarchy_judges_a_peak_by_the_tolerance_of_the_results(belt):
     own = [abs(value) for value in (largest, scalars(history).peak_negative_tangential_force)]
     exact = max(value * 0.01 / 1.01 / max(0.1 * value, 2.0) for value in own)
     assert row["tangential_error"] == pytest.approx(exact, rel=1e-6)
-    chosen = {name: Tolerance(value=0.2, floor=4.0, reason="a screening") for name in pareto.PEAKS}
+    chosen = {name: ToleranceEntry(value=0.2, floor=4.0, reason="a screening") for name in pareto.PEAKS}
     (wide,) = pareto.case_rows(
         [belt], reference(belt, history), "embedded", ("condensed_coarse",), judged=tolerances(chosen)
     )

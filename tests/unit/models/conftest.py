@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import yaml
 
-from tread_validate.models.outcome import Outcome
+from tread_validate.models.outcome import RunOutcome
 from tread_validate.models.run import run_model
 from tread_validate.models.skeleton import skeleton
 from tread_validate.spring import resolve_creep
@@ -34,7 +34,7 @@ def study_with(tmp_path: Path) -> Callable[..., Path]:
 
 
 @pytest.fixture
-def run_script(tmp_path: Path, study_with: Callable[..., Path]) -> Callable[..., tuple[Outcome, ...]]:
+def run_script(tmp_path: Path, study_with: Callable[..., Path]) -> Callable[..., tuple[RunOutcome, ...]]:
     """Run Python source as a command model over the first cases of the study."""
 
     def run(
@@ -43,7 +43,7 @@ def run_script(tmp_path: Path, study_with: Callable[..., Path]) -> Callable[...,
         placeholders: str = "{case} {history}",
         script: str = "mine.py",
         **keys: Any,
-    ) -> tuple[Outcome, ...]:
+    ) -> tuple[RunOutcome, ...]:
         (tmp_path / "mine.py").write_text(source)
         path = study_with(kind="command", command=f"{sys.executable} {script} {placeholders}", **keys)
         study = load_study(path)

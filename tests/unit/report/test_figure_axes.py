@@ -11,7 +11,7 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 
-from tread_validate.report.build import Places, compose
+from tread_validate.report.build import ReportPlaces, compose
 from tread_validate.report.figures import style
 
 DIMENSIONLESS = ("coefficient of friction",)
@@ -32,7 +32,7 @@ def drawn(inputs: Any, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Fi
     out = tmp_path_factory.mktemp("axes")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(style, "save", keep)
-        compose(inputs.study, Places(inputs.tables, inputs.spring, inputs.reference, inputs.decks, out))
+        compose(inputs.study, ReportPlaces(inputs.tables, inputs.spring, inputs.reference, inputs.decks, out))
     assert len(kept) == len(list((out / "figures").glob("*.svg"))) > 15
     return kept
 

@@ -9,7 +9,7 @@ import pytest
 
 from tread_validate.errors import InputError
 from tread_validate.report.run_times import write_run_times
-from tread_validate.report.workflow import Rule, ancestors, columns, direct, job_times, read_rules
+from tread_validate.report.workflow import WorkflowRule, ancestors, columns, direct, job_times, read_rules
 
 NOTE = (
     "decks;;logs/decks.tsv\nspring;;logs/spring-{variant}.tsv\ntables;decks,spring;\nreport;decks,tables;logs/r.tsv\n"
@@ -18,7 +18,7 @@ HEAD = "s\th:m:s\tmax_rss\tmax_vms\tcpu_time\n"
 
 
 @pytest.fixture
-def rules(tmp_path: Path) -> tuple[Rule, ...]:
+def rules(tmp_path: Path) -> tuple[WorkflowRule, ...]:
     (tmp_path / "workflow.txt").write_text(NOTE)
     (tmp_path / "logs").mkdir()
     for name, seconds in (("decks", "2.0"), ("spring-paper", "3.5"), ("spring-own", "1.5")):
@@ -28,7 +28,7 @@ def rules(tmp_path: Path) -> tuple[Rule, ...]:
     return read_rules(tmp_path / "workflow.txt")
 
 
-def test_rules_stand_right_of_what_they_need(rules: tuple[Rule, ...]) -> None:
+def test_rules_stand_right_of_what_they_need(rules: tuple[WorkflowRule, ...]) -> None:
     """Exact: three columns; an arrow that another way implies is left out."""
     assert [[rule.name for rule in column] for column in columns(rules)] == [
         ["decks", "spring"],
@@ -54,7 +54,7 @@ def test_damaged_note_is_refused(tmp_path: Path, note: str) -> None:
         read_rules(tmp_path / "w.txt")
 
 
-def test_times_are_those_of_the_benchmarks(rules: tuple[Rule, ...], tmp_path: Path) -> None:
+def test_times_are_those_of_the_benchmarks(rules: tuple[WorkflowRule, ...], tmp_path: Path) -> None:
     """Exact: a job a file, named by its wildcards; what was not measured is None."""
     found = {(time.rule, time.job): time for time in job_times(rules, tmp_path)}
     assert set(found) == {("decks", ""), ("spring", "own"), ("spring", "paper")}
@@ -62,7 +62,9 @@ def test_times_are_those_of_the_benchmarks(rules: tuple[Rule, ...], tmp_path: Pa
     assert found["decks", ""].cpu_seconds is None
 
 
-def test_page_tells_a_time_of_this_run_from_one_of_an_earlier_run(rules: tuple[Rule, ...], tmp_path: Path) -> None:
+def test_page_tells_a_time_of_this_run_from_one_of_an_earlier_run(
+    rules: tuple[WorkflowRule, ...], tmp_path: Path
+) -> None:
     """Exact: by the time at which the run began; without it, no time is said to be of this run."""
     write_run_times(tmp_path / "workflow.txt", tmp_path / "t.html", began=1500.0, root=tmp_path)
     rows = {row.split("</td>")[0].split("<td>")[-1]: row for row in (tmp_path / "t.html").read_text().split("<tr>")}

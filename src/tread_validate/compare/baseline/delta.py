@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..quantities import Noise
-from ..tables import TABLES, Delta, Outcome, Row, cell, read_rows
-from ..tables.row import Column
+from ..tables import TABLES, Delta, Outcome, TableRow, cell, read_rows
+from ..tables.row import TableColumn
 from .store import Baseline, Cells, todays_noise
 
 Holds = Callable[[str, Cells], bool]
@@ -58,7 +58,7 @@ def check_tables(baseline: Baseline, folder: Path | str, holds: Holds | None = N
     found: list[Delta] = list(_declared(baseline))
     rows = 0
     for name, kind in TABLES.items():
-        current: Sequence[Row] = read_rows(place / f"{name}.csv", kind)
+        current: Sequence[TableRow] = read_rows(place / f"{name}.csv", kind)
         accepted = baseline.tables.get(name, ())
         if holds is not None:
             current = [row for row in current if holds(name, _cells(row))]
@@ -69,7 +69,7 @@ def check_tables(baseline: Baseline, folder: Path | str, holds: Holds | None = N
     return Check(rows, tuple(order))
 
 
-def _table(kind: type[Row], accepted: Sequence[Cells], current: Sequence[Row]) -> Iterator[Delta]:
+def _table(kind: type[TableRow], accepted: Sequence[Cells], current: Sequence[TableRow]) -> Iterator[Delta]:
     before = {_identity(kind, cells): cells for cells in accepted}
     known = set(accepted[0]) if accepted else set(kind.header())
     for name in (name for name in kind.header() if name not in known):
@@ -88,11 +88,11 @@ def _table(kind: type[Row], accepted: Sequence[Cells], current: Sequence[Row]) -
         yield Delta.of_row(kind.table, _kind(kind.table, ""), "missing", old, "", "no such row any more")
 
 
-def _cells(row: Row) -> Cells:
+def _cells(row: TableRow) -> Cells:
     return {name: cell(value) for name, value in row.cells().items()}
 
 
-def _row(row: Row, cells: Cells, old: Cells) -> Iterator[Delta]:
+def _row(row: TableRow, cells: Cells, old: Cells) -> Iterator[Delta]:
     for found in row.columns():
         a, b = old.get(found.name), cells[found.name]
         if found.free or a is None or a == b:
@@ -103,7 +103,7 @@ def _row(row: Row, cells: Cells, old: Cells) -> Iterator[Delta]:
         yield Delta.of_cell(row.table, _kind(row.table, found.name), outcome, cells, found, a, b, change, width, note)
 
 
-def _cell(found: Column, row: Row, a: str, b: str) -> tuple[Outcome, float | None, float, str]:
+def _cell(found: TableColumn, row: TableRow, a: str, b: str) -> tuple[Outcome, float | None, float, str]:
     """Return outcome, change, width and a word for a cell whose text is not what it was."""
     if found.kind != "number":
         return "changed", None, 0.0, ""
@@ -120,7 +120,7 @@ def _cell(found: Column, row: Row, a: str, b: str) -> tuple[Outcome, float | Non
     return ("moved" if moved else "within"), change, width, ""
 
 
-def _factor(row: Row) -> float:
+def _factor(row: TableRow) -> float:
     sources = (getattr(row, name, "") for name in ("source", "predicted_source", "source_a", "source_b"))
     return ITERATIVE_FACTOR if ITERATIVE in sources else 1.0
 
@@ -137,7 +137,7 @@ def _kind(table: str, column: str) -> str:
     return "run" if table == "peaks" else "consequence"
 
 
-def _identity(kind: type[Row], cells: Mapping[str, str]) -> tuple[str, ...]:
+def _identity(kind: type[TableRow], cells: Mapping[str, str]) -> tuple[str, ...]:
     return tuple(cells.get(name, "") for name in kind.key)
 
 
@@ -148,7 +148,7 @@ def _declared(baseline: Baseline) -> Iterator[Delta]:
         a, b = baseline.noise.get(name), today.get(name)
         if a != b:
             cells = {"quantity": name}
-            column = Column("noise", "string", "", "", False)
+            column = TableColumn("noise", "string", "", "", False)
             yield Delta.of_cell("quantities", "rule", "changed", cells, column, _told(a), _told(b), None, 0.0, "")
 
 

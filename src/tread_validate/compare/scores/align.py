@@ -15,7 +15,7 @@ SAMPLES = 2001
 
 
 @dataclass(frozen=True)
-class Pair:
+class AlignedPair:
     """Two histories on a common, uniform clock over the union of both contacts.
 
     Attributes
@@ -59,7 +59,7 @@ def align(
     predicted: History,
     samples: int = SAMPLES,
     limits: tuple[float, float] | None = None,
-) -> Pair:
+) -> AlignedPair:
     """Resample both histories linearly to `samples` uniform times over `limits` (default: the union of contacts).
 
     Outside its own record a history is out of contact, so its forces are 0 there; `window` has made sure that no
@@ -71,7 +71,7 @@ def align(
     def resampled(history: History, values: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.interp(time, history.time, values, left=0.0, right=0.0)
 
-    return Pair(
+    return AlignedPair(
         time,
         resampled(reference, reference.normal_force),
         resampled(predicted, predicted.normal_force),

@@ -10,7 +10,7 @@ from ...history import History
 from ..quantities import HISTORIES, HISTORY_METRICS, SCALARS, Quantity, Scalars, Scale, Tolerances, scalars
 from ..quantities import tolerances as default_tolerances
 from ..tables import MetricRow
-from .align import Pair, align, window
+from .align import AlignedPair, align, window
 from .assessment import CANNOT_TELL, UNKNOWN, Parts, agreement, assessment
 from .history_rows import NOT_GIVEN, history_rows, metric_unit, not_given_rows
 from .iso18571 import SAMPLES as ISO_SAMPLES
@@ -75,7 +75,7 @@ def compare(
     return tuple(row.marked(assumed).hinted(hints.get((row.quantity, row.metric), "")) for row in rows)
 
 
-def suspicions(reference: History, predicted: History, pair: Pair) -> dict[tuple[str, str], str]:
+def suspicions(reference: History, predicted: History, pair: AlignedPair) -> dict[tuple[str, str], str]:
     """Return what looks like a mistake of units or sign, by quantity and metric: pointed out, never corrected."""
     found = {}
     ratio = float(predicted.normal_force.max()) / float(reference.normal_force.max())

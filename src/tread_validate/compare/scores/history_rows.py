@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ..quantities import HISTORY_METRIC, HISTORY_METRICS, ErrorType, HistoryMetric, Tolerances
 from ..tables import MetricRow
-from .align import Pair
+from .align import AlignedPair
 from .assessment import CANNOT_TELL, Parts, agreement, assessment
 from .iso18571 import IsoRating, grade, iso18571
 from .metrics import sprague_geers
@@ -31,7 +31,7 @@ class _Score:
 
 
 def history_rows(
-    quantity: str, fine: Pair, coarse: Pair, names: Names, known: Uncertainties, judged: Tolerances
+    quantity: str, fine: AlignedPair, coarse: AlignedPair, names: Names, known: Uncertainties, judged: Tolerances
 ) -> list[MetricRow]:
     """Return a row for every score of ``normal_force`` or ``tangential_force``.
 
@@ -99,7 +99,7 @@ def _times(parts: Parts, factor: float) -> Parts:
     return Parts(*(None if u is None else factor * u for u in (parts.numerical, parts.inputs, parts.data)))
 
 
-def _rms(quantity: str, pair: Pair, amplitude: Parts, judged: Tolerances) -> _Score:
+def _rms(quantity: str, pair: AlignedPair, amplitude: Parts, judged: Tolerances) -> _Score:
     reference, predicted = pair.forces(quantity)
     scale = float(np.max(np.abs(reference)))
     rms = float(np.sqrt(np.mean((predicted - reference) ** 2)))
@@ -111,7 +111,7 @@ def _rms(quantity: str, pair: Pair, amplitude: Parts, judged: Tolerances) -> _Sc
     return _Score(scale, rms, rms / scale, "relative", own.value, Parts(amplitude.numerical, amplitude.inputs, data))
 
 
-def _sprague_geers(quantity: str, pair: Pair, amplitude: Parts, judged: Tolerances) -> dict[str, _Score]:
+def _sprague_geers(quantity: str, pair: AlignedPair, amplitude: Parts, judged: Tolerances) -> dict[str, _Score]:
     reference, predicted = pair.forces(quantity)
     found = sprague_geers(pair.time, reference, predicted)
     sizes = (float(np.sqrt(np.mean(reference**2))), float(np.sqrt(np.mean(predicted**2))))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ...history import History
 from ..quantities import HISTORIES, contact_window
 from ..tables import Sensitivity
-from .align import SAMPLES, Pair, align, window
+from .align import SAMPLES, AlignedPair, align, window
 from .iso18571 import SAMPLES as ISO_SAMPLES
 from .iso18571 import iso18571
 from .metrics import relative_rms, sprague_geers
@@ -45,7 +45,7 @@ def _scores(
     reference: History, predicted: History, quantity: str, limits: tuple[float, float], fine: int, coarse: int
 ) -> Iterator[tuple[str, int, float]]:
     if fine:
-        pair: Pair = align(reference, predicted, fine, limits)
+        pair: AlignedPair = align(reference, predicted, fine, limits)
         a, b = pair.forces(quantity)
         sprague = sprague_geers(pair.time, a, b)
         yield "relative_rms", fine, relative_rms(a, b)

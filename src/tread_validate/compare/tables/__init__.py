@@ -9,7 +9,7 @@ from .delta import Delta, Outcome, TrendRow
 from .errors import Agreement, Assessment, Ensemble, MetricRow, Sensitivity, ToleranceRow
 from .expected import ExpectedRow
 from .package import write_package
-from .row import Column, Row, column
+from .row import TableColumn, TableRow, column
 from .runs import AssumedRow, CaseRow, PeakRow
 from .slopes import Coefficient, Difference, Residual
 from .statements import ClaimAssessment, ClaimRow, PublishedRow
@@ -25,7 +25,6 @@ __all__ = [
     "ClaimAssessment",
     "ClaimRow",
     "Coefficient",
-    "Column",
     "Delta",
     "Difference",
     "Ensemble",
@@ -35,9 +34,10 @@ __all__ = [
     "PeakRow",
     "PublishedRow",
     "Residual",
-    "Row",
     "Sensitivity",
     "StatisticsRow",
+    "TableColumn",
+    "TableRow",
     "ToleranceRow",
     "TrendRow",
     "cell",

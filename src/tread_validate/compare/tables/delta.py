@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Literal
 
-from .row import Column, Row, column, table_row
+from .row import TableColumn, TableRow, column, table_row
 from .runs import SOURCE
 
 Outcome = Literal["within", "moved", "new", "missing", "stale", "changed"]
@@ -15,7 +15,7 @@ PLACES = ("source", "reference_source", "case_id", "quantity", "metric")
 
 
 @table_row
-class Delta(Row):
+class Delta(TableRow):
     """What became of one cell, or of a whole row where `in_column` is empty."""
 
     table = "delta"
@@ -57,7 +57,7 @@ class Delta(Row):
 
     @classmethod
     def of_cell(
-        cls, table: str, kind: str, outcome: Outcome, cells: Mapping[str, str], found: Column, a: str, b: str,
+        cls, table: str, kind: str, outcome: Outcome, cells: Mapping[str, str], found: TableColumn, a: str, b: str,
         change: float | None, width: float, note: str,
     ) -> Delta:  # fmt: skip
         """Return the fate of one cell."""
@@ -87,7 +87,7 @@ class Delta(Row):
 
 
 @table_row
-class TrendRow(Row):
+class TrendRow(TableRow):
     """One headline number of one accepted baseline."""
 
     table = "trend"

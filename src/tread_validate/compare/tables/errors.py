@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Literal
 
 from ..quantities import HISTORY_METRIC, SCALAR, ErrorType, Noise
-from .row import Column, Row, column, table_row
+from .row import TableColumn, TableRow, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
 Assessment = Literal["adequate", "inadequate", "cannot tell"]
@@ -18,7 +18,7 @@ ERROR_TYPE = "`relative`: over the reference; `absolute`: in `unit`; `score`: sc
 
 
 @table_row
-class ToleranceRow(Row):
+class ToleranceRow(TableRow):
     """How large an error of one quantity or score is good enough."""
 
     table = "tolerances"
@@ -35,7 +35,7 @@ class ToleranceRow(Row):
 
 
 @table_row
-class MetricRow(Row):
+class MetricRow(TableRow):
     r"""One declared comparison.
 
     `agreement` and `assessment` answer two questions, after ASME V&V 20, with U = 2 u_val and u_val^2 the sum of the
@@ -80,7 +80,7 @@ class MetricRow(Row):
     assumed: str = column(ASSUMED, default="")
     grade: str = column("grade of an ISO/TS 18571 score R: excellent, good, fair or poor", default="")
 
-    def noise(self, found: Column) -> Noise:
+    def noise(self, found: TableColumn) -> Noise:
         """Return the noise of the quantity, or of the score, for its values and for the error made of them."""
         if found.name in ("u_numerical", "uncertainty") and self.metric == "scalar" and self.predicted:
             return self._noise_of_a_part(2.0 if found.name == "uncertainty" else 1.0)
@@ -118,7 +118,7 @@ class MetricRow(Row):
 
 
 @table_row
-class Ensemble(Row):
+class Ensemble(TableRow):
     """Summary of the rows of one quantity and metric over a group of cases."""
 
     table = "ensemble"
@@ -156,7 +156,7 @@ class Ensemble(Row):
     note: str = column(NOTE, free=True)
     assumed: str = column(ASSUMED)
 
-    def noise(self, found: Column) -> Noise:
+    def noise(self, found: TableColumn) -> Noise:
         """Return the noise of the scores for errors that are scores, and of the quantity for those in its unit."""
         if found.name not in ("mean_abs_error", "largest_abs_error"):
             return found.noise
@@ -166,7 +166,7 @@ class Ensemble(Row):
 
 
 @table_row
-class Sensitivity(Row):
+class Sensitivity(TableRow):
     """One score under one variation of how it is taken."""
 
     table = "sensitivity"
@@ -181,6 +181,6 @@ class Sensitivity(Row):
     value: float = column("the score")
     change: float = column("the score less that reported")
 
-    def noise(self, found: Column) -> Noise:
+    def noise(self, found: TableColumn) -> Noise:
         """Return the noise of the score."""
         return HISTORY_METRIC[self.metric].noise if found.kind == "number" else found.noise

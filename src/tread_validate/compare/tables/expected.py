@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from ..quantities import Noise
-from .row import Row, column, table_row
+from .row import TableRow, column, table_row
 from .runs import ASSUMED, SOURCE, STATUS
 
 Expected = Literal["normal", "impulse", "tangential"]
@@ -13,7 +13,7 @@ SHARE = Noise(1e-4, 1e-5)
 
 
 @table_row
-class ExpectedRow(Row):
+class ExpectedRow(TableRow):
     """The error of one quantity that the validity map expects of one model's run, and the actual one."""
 
     table = "expected"

@@ -9,7 +9,7 @@ from typing import Any
 from ...provenance import sha256_file
 from ...yaml_text import write_yaml
 from .catalogue import TABLES
-from .row import Column, Row
+from .row import TableColumn, TableRow
 
 PACKAGE = "datapackage.yaml"
 
@@ -26,7 +26,7 @@ def write_package(folder: Path, study: str, commit: str) -> None:
     write_yaml(folder / PACKAGE, package)
 
 
-def schema(kind: type[Row]) -> dict[str, Any]:
+def schema(kind: type[TableRow]) -> dict[str, Any]:
     """Return the table schema of a row class."""
     return {
         "fields": [_field(item, item.name in kind.key) for item in kind.columns()],
@@ -35,7 +35,7 @@ def schema(kind: type[Row]) -> dict[str, Any]:
     }
 
 
-def _resource(kind: type[Row], path: Path) -> Mapping[str, Any]:
+def _resource(kind: type[TableRow], path: Path) -> Mapping[str, Any]:
     if not path.is_file():
         return {}
     return {
@@ -50,7 +50,7 @@ def _resource(kind: type[Row], path: Path) -> Mapping[str, Any]:
     }
 
 
-def _field(item: Column, in_key: bool) -> dict[str, Any]:
+def _field(item: TableColumn, in_key: bool) -> dict[str, Any]:
     found: dict[str, Any] = {"name": item.name, "type": "string" if item.kind == "list" else item.kind}
     found["description"] = item.description
     if item.unit:

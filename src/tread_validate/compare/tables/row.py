@@ -20,7 +20,7 @@ WORDS = {"true": True, "false": False}
 
 
 @dataclass(frozen=True)
-class Column:
+class TableColumn:
     """One column: its name in the header, kind of values, unit (empty where it has none) and what it holds.
 
     `noise` is how far another processor may move its numbers; `free` says that the baseline does not hold it: words for
@@ -37,10 +37,10 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Spread:
+class ColumnSpread:
     """Several number columns behind one field, which maps their keys to values."""
 
-    columns: tuple[tuple[str, Column], ...]
+    columns: tuple[tuple[str, TableColumn], ...]
 
 
 def column(
@@ -50,9 +50,9 @@ def column(
     return field(default=default, metadata={"description": description, "unit": unit, "noise": noise, "free": free})
 
 
-def spread(columns: Mapping[str, Column]) -> Any:
+def spread(columns: Mapping[str, TableColumn]) -> Any:
     """Declare a field that stands for several number columns, by key."""
-    return field(metadata={"spread": Spread(tuple(columns.items()))})
+    return field(metadata={"spread": ColumnSpread(tuple(columns.items()))})
 
 
 @typing.dataclass_transform(frozen_default=True, field_specifiers=(column, spread))
@@ -62,7 +62,7 @@ def table_row(cls: type[AnyRow]) -> type[AnyRow]:
 
 
 @dataclass(frozen=True)
-class Row:
+class TableRow:
     """A row of a table; a sub-class is the one declaration of its columns.
 
     Class attributes: `table`, its file's stem; `title`, one line on what it holds; `key`, the columns that make a row
@@ -74,7 +74,7 @@ class Row:
     key: ClassVar[tuple[str, ...]]
 
     @classmethod
-    def columns(cls) -> tuple[Column, ...]:
+    def columns(cls) -> tuple[TableColumn, ...]:
         """Return the columns in the order of the header."""
         return tuple(found for _, _, found in _layout(cls))
 
@@ -94,7 +94,7 @@ class Row:
         """Return the values of the key's columns as text."""
         return tuple(str(getattr(self, name)) for name in self.key)
 
-    def noise(self, found: Column) -> Noise:
+    def noise(self, found: TableColumn) -> Noise:
         """Return how far the value of a column may move before it counts as moved; words and counts not at all."""
         return found.noise
 
@@ -111,20 +111,20 @@ class Row:
         return cls(**values)
 
 
-Layout = tuple[tuple[str, str | None, Column], ...]
-_layouts: dict[type[Row], Layout] = {}
+Layout = tuple[tuple[str, str | None, TableColumn], ...]
+_layouts: dict[type[TableRow], Layout] = {}
 
 
-def _layout(cls: type[Row]) -> Layout:
+def _layout(cls: type[TableRow]) -> Layout:
     """Return (field, key inside the field or None, column) for every column."""
     if cls not in _layouts:
         _layouts[cls] = _make_layout(cls)
     return _layouts[cls]
 
 
-def _make_layout(cls: type[Row]) -> Layout:
+def _make_layout(cls: type[TableRow]) -> Layout:
     hints = typing.get_type_hints(cls)
-    found: list[tuple[str, str | None, Column]] = []
+    found: list[tuple[str, str | None, TableColumn]] = []
     for item in fields(cls):
         if "spread" in item.metadata:
             found += [(item.name, key, one) for key, one in item.metadata["spread"].columns]
@@ -132,7 +132,7 @@ def _make_layout(cls: type[Row]) -> Layout:
         kind, optional = _kind(hints[item.name])
         given = item.metadata
         noise = given["noise"] or (PRINTED if kind == "number" else EXACT)
-        made = Column(item.name, kind, given["unit"], given["description"], optional, noise, given["free"])
+        made = TableColumn(item.name, kind, given["unit"], given["description"], optional, noise, given["free"])
         found.append((item.name, None, made))
     return tuple(found)
 
@@ -148,7 +148,7 @@ def _kind(hint: Any) -> tuple[Kind, bool]:
     return kinds.get(hint, "string"), optional
 
 
-def _value(found: Column, text: str, where: str) -> Any:
+def _value(found: TableColumn, text: str, where: str) -> Any:
     if found.kind == "string":
         return text
     if found.kind == "list":

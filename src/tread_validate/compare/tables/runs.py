@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..quantities import SCALARS, Noise
-from .row import Column, Row, column, spread, table_row
+from .row import TableColumn, TableRow, column, spread, table_row
 
 ASSUMED = "assumed and synthetic inputs that the row depends on, `; ` between them"
 SOURCE = "who made the run: `spring:<variant>`, `fe:<engine>`, `rig:measured`, `<kind>:published`"
@@ -18,7 +18,7 @@ NOTE = "why there is no value, or a word on it"
 
 
 @table_row
-class CaseRow(Row):
+class CaseRow(TableRow):
     """The conditions of one case."""
 
     table = "cases"
@@ -45,7 +45,7 @@ class CaseRow(Row):
 
 
 @table_row
-class PeakRow(Row):
+class PeakRow(TableRow):
     """The scalars of one run; empty where it has none."""
 
     table = "peaks"
@@ -63,7 +63,7 @@ class PeakRow(Row):
     speed_m_s: float = column("speed of the surface", "m/s")
     values: Mapping[str, float | None] = spread(
         {
-            item.name: Column(
+            item.name: TableColumn(
                 item.column, "number", "" if item.unit == "1" else item.unit, item.label, True, item.noise
             )
             for item in SCALARS
@@ -85,7 +85,7 @@ class PeakRow(Row):
 
 
 @table_row
-class AssumedRow(Row):
+class AssumedRow(TableRow):
     """An input that is assumed or synthetic."""
 
     table = "assumed"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..quantities import Noise
-from .row import Row, column, table_row
+from .row import TableRow, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
 SLOPE, END = Noise(1e-4, 1e-6), Noise(1e-4, 5e-6)  # of a coefficient, and of the end of an interval about it
@@ -13,7 +13,7 @@ SET = "temperature and interference of a set of runs, or `mean` over the sets"
 
 
 @table_row
-class Coefficient(Row):
+class Coefficient(TableRow):
     """A row of Table 1 in long form."""
 
     table = "regression"
@@ -40,7 +40,7 @@ class Coefficient(Row):
 
 
 @table_row
-class Difference(Row):
+class Difference(TableRow):
     """Coefficient of source b less that of source a, with the test that judges it."""
 
     table = "regression_differences"
@@ -70,7 +70,7 @@ class Difference(Row):
 
 
 @table_row
-class Residual(Row):
+class Residual(TableRow):
     """Distance of one run from the line of its set."""
 
     table = "regression_residuals"

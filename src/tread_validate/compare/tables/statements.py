@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from ..quantities import Noise
-from .row import Column, Row, column, table_row
+from .row import TableColumn, TableRow, column, table_row
 from .runs import ASSUMED, NOTE, SOURCE, STATUS
 
 ClaimAssessment = Literal["agrees", "disagrees", "cannot tell"]
@@ -14,7 +14,7 @@ SPREAD_KIND = "what the interval is: sd, range, rounding, last digit, about, sig
 
 
 @table_row
-class ClaimRow(Row):
+class ClaimRow(TableRow):
     """One published number next to one computed number."""
 
     table = "claims"
@@ -45,14 +45,14 @@ class ClaimRow(Row):
     note: str = column(NOTE, free=True)
     assumed: str = column(ASSUMED)
 
-    def noise(self, found: Column) -> Noise:
+    def noise(self, found: TableColumn) -> Noise:
         """Return that of the statement, where it stands for an instant or for a share that slips."""
         of_samples = found.name in ("computed", "error") and self.claim_id in OF_SAMPLES
         return Noise(0.0, 2e-3) if of_samples else found.noise
 
 
 @table_row
-class PublishedRow(Row):
+class PublishedRow(TableRow):
     """A number that the paper prints, as the reference data package has it."""
 
     table = "published"

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from ..quantities import Noise
-from .row import Row, column, table_row
+from .row import TableRow, column, table_row
 from .runs import ASSUMED, SOURCE, STATUS
 
 MEAN = Noise(1e-4, 1e-4)
 
 
 @table_row
-class StatisticsRow(Row):
+class StatisticsRow(TableRow):
     """Statistics of one run over its contact, of runs that are no reference too; empty where there is no history."""
 
     table = "statistics"

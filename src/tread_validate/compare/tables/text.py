@@ -11,10 +11,10 @@ from typing import Any, TypeVar
 
 from ...errors import InputError, one_line
 from ...files import read_text, write_text
-from .row import Row
+from .row import TableRow
 
 DIGITS = 7
-AnyRow = TypeVar("AnyRow", bound=Row)
+AnyRow = TypeVar("AnyRow", bound=TableRow)
 
 
 def cell(value: Any) -> str:

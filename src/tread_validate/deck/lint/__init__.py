@@ -11,14 +11,14 @@ from typing import Literal
 from ...errors import InputError
 from ...inp import read_deck
 from .contact_rules import check_contact
-from .findings import Finding, Findings, Rule, catalogue, find_rule
+from .findings import Finding, Findings, LintRule, catalogue, find_rule
 from .mesh_rules import check_mesh
 from .motion_rules import check_motion, check_steps
 from .names import collect, unique
 from .output import FORMATS, formatted
 from .syntax import check_syntax
 
-__all__ = ["FORMATS", "Dialect", "Finding", "Rule", "catalogue", "find_rule", "formatted", "lint"]
+__all__ = ["FORMATS", "Dialect", "Finding", "LintRule", "catalogue", "find_rule", "formatted", "lint"]
 
 Dialect = Literal["abaqus", "calculix"]
 LAST_COUNTS = frozenset({"duplicate-name", "two-sections"})

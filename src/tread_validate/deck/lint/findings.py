@@ -14,7 +14,7 @@ Severity = Literal["error", "warning", "note"]
 
 
 @dataclass(frozen=True)
-class Rule:
+class LintRule:
     """A rule of the catalogue ``rules.yaml``."""
 
     code: str
@@ -25,16 +25,16 @@ class Rule:
 
 
 @cache
-def catalogue() -> dict[str, Rule]:
+def catalogue() -> dict[str, LintRule]:
     """Return every rule by its name."""
     text = (files("tread_validate.deck.lint") / "rules.yaml").read_text(encoding="utf-8")
     return {
-        entry["rule"]: Rule(code, entry["rule"], entry["severity"], entry["title"], entry["help"])
+        entry["rule"]: LintRule(code, entry["rule"], entry["severity"], entry["title"], entry["help"])
         for code, entry in load_yaml(text, "rules.yaml", fast=True).items()
     }
 
 
-def find_rule(text: str) -> Rule | None:
+def find_rule(text: str) -> LintRule | None:
     """Return the rule of a code (``TV012``) or name (``missing-include``)."""
     return next((rule for rule in catalogue().values() if text.upper() == rule.code or text == rule.name), None)
 

@@ -9,7 +9,7 @@ from ...inp import DataLine, Deck, KeywordBlock, Lines
 from ...inp.deck import to_float
 from ...inp.parameters import MARK
 from ...inp.table import all_numbers
-from ...inp.vocabulary import Keyword, keywords
+from ...inp.vocabulary import KeywordEntry, keywords
 from .findings import Finding, Findings
 from .spelling import misspelt
 
@@ -65,7 +65,7 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
         findings.add(deck.written[-1], "no-step", "the deck has no *STEP")
 
 
-def _unknown(block: KeywordBlock, vocabulary: Mapping[str, Keyword], findings: Findings, dialect: str) -> None:
+def _unknown(block: KeywordBlock, vocabulary: Mapping[str, KeywordEntry], findings: Findings, dialect: str) -> None:
     squeezed = block.keyword.replace(" ", "")
     if dialect == "calculix" and any(squeezed.startswith(name.replace(" ", "")) for name in vocabulary):
         # CalculiX compares first letters: a longer word is its keyword, or one of its own (*BOUNDARYF)
@@ -99,8 +99,8 @@ def _check_place(block: KeywordBlock, inside: bool, steps: int, findings: Findin
 def _check_block(
     blocks: Sequence[KeywordBlock],
     position: int,
-    known: Keyword,
-    vocabulary: Mapping[str, Keyword],
+    known: KeywordEntry,
+    vocabulary: Mapping[str, KeywordEntry],
     findings: Findings,
 ) -> None:
     block = blocks[position]
@@ -113,7 +113,7 @@ def _check_block(
         findings.add(block, "wrong-place", f"*{block.keyword} belongs below *{' or *'.join(known.parents)}")
 
 
-def _check_parameters(block: KeywordBlock, known: Keyword, findings: Findings) -> None:
+def _check_parameters(block: KeywordBlock, known: KeywordEntry, findings: Findings) -> None:
     allowed = known.required | known.optional
     for name, value in block.parameters.items():
         if name not in allowed:
@@ -136,7 +136,7 @@ def check_lines(block: KeywordBlock, findings: Findings) -> None:
         _check_data(block, known, findings)
 
 
-def _check_data(block: KeywordBlock, known: Keyword, findings: Findings) -> None:
+def _check_data(block: KeywordBlock, known: KeywordEntry, findings: Findings) -> None:
     least, most = known.lines
     severity = None if block.keyword in STRICT_FORM else "warning"
     if len(block.data) < least and "INPUT" not in block.parameters:
@@ -197,7 +197,7 @@ def number(text: str) -> float:
 
 
 def _has_parent(
-    blocks: Sequence[KeywordBlock], position: int, parents: tuple[str, ...], vocabulary: Mapping[str, Keyword]
+    blocks: Sequence[KeywordBlock], position: int, parents: tuple[str, ...], vocabulary: Mapping[str, KeywordEntry]
 ) -> bool:
     """Whether one of `parents` precedes with nothing but options in between; what is not known might be one."""
     for block in reversed(blocks[:position]):

@@ -21,7 +21,7 @@ from ..fe_store import FeStore
 from ..filing import file_run, read_run
 from .deck_facts import DeckFacts, deck_facts
 from .table_checks import against_reaction, clock, plausible
-from .tables import Table, read_table
+from .tables import AbaqusTable, read_table
 
 FORCE_UNITS = {"N": 1.0, "kN": 1e3, "mN": 1e-3}
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
@@ -167,7 +167,7 @@ def write(imported: Imported, path: Path | str) -> None:
     write_yaml(target.with_suffix(".yaml"), record)
 
 
-def _identity(table: Table, facts: DeckFacts, choice: Options) -> list[str]:
+def _identity(table: AbaqusTable, facts: DeckFacts, choice: Options) -> list[str]:
     checks = []
     for what, found in (("--case", choice.case_id), (f"{table.source}: job", table.notes.get("job"))):
         if found and found != facts.case_id:
@@ -186,7 +186,7 @@ def _identity(table: Table, facts: DeckFacts, choice: Options) -> list[str]:
 
 
 def _forces(
-    table: Table, second: Table | None, choice: Options
+    table: AbaqusTable, second: AbaqusTable | None, choice: Options
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
     """Return time (s, clock as written), normal and tangential force (N, our signs) and the slipping share."""
     scale = FORCE_UNITS[choice.force_unit]
@@ -212,7 +212,7 @@ def _forces(
     return time, normal, shear, table.column("slipping_fraction")
 
 
-def _reaction(table: Table, choice: Options) -> NDArray[np.float64] | None:
+def _reaction(table: AbaqusTable, choice: Options) -> NDArray[np.float64] | None:
     """Return the road's reaction, (n, 2) in N, or None; what holds the road is the force that it has on the block."""
     found = []
     for name in ("RF1", "RF2"):
@@ -223,7 +223,7 @@ def _reaction(table: Table, choice: Options) -> NDArray[np.float64] | None:
     return np.column_stack(found)
 
 
-def _at(second: Table, time: NDArray[np.float64], choice: Options) -> NDArray[np.float64]:
+def _at(second: AbaqusTable, time: NDArray[np.float64], choice: Options) -> NDArray[np.float64]:
     own = second.values[:, 0] * TIME_UNITS[choice.time_unit]
     step = float(np.median(np.diff(time)))
     if abs(own[0] - time[0]) > step or abs(own[-1] - time[-1]) > step:

@@ -35,7 +35,7 @@ NO_LICENCE = re.compile(
 TAIL = 4000  # characters of a log that are searched and shown
 
 
-class Settings(Strict):
+class AbaqusSettings(Strict):
     """How ABAQUS is called on this machine or cluster.
 
     `queue` is put before the call and must wait for the job to end, as ``srun`` or ``sbatch --wait`` do.
@@ -56,7 +56,7 @@ class _Try:
     text: str
 
 
-def load_settings(path: Path | str | None) -> Settings:
+def load_settings(path: Path | str | None) -> AbaqusSettings:
     """Read the ``abaqus`` section of an engine settings file (YAML); defaults without a file.
 
     Raises
@@ -65,15 +65,15 @@ def load_settings(path: Path | str | None) -> Settings:
         An unknown key or a value out of range.
     """
     if path is None:
-        return Settings.model_validate({})
-    return as_model(read_mapping(path).get("abaqus", {}), Settings, path, "abaqus")
+        return AbaqusSettings.model_validate({})
+    return as_model(read_mapping(path).get("abaqus", {}), AbaqusSettings, path, "abaqus")
 
 
 def run_abaqus(
     deck: Path | str,
     user: Path | str | None,
     folder: Path | str,
-    settings: Settings,
+    settings: AbaqusSettings,
     *,
     say: Callable[[str], None] = print,
     sleep: Callable[[float], None] = time.sleep,
@@ -141,7 +141,7 @@ def _solve(
     call: list[str],
     work: Path,
     job: str,
-    settings: Settings,
+    settings: AbaqusSettings,
     say: Callable[[str], None],
     sleep: Callable[[float], None],
     clock: Callable[[], float],
@@ -167,7 +167,7 @@ def _solve(
         waited += settings.licence_retry_s
 
 
-def _call(call: list[str], work: Path, settings: Settings) -> _Try:
+def _call(call: list[str], work: Path, settings: AbaqusSettings) -> _Try:
     try:
         done = subprocess.run(
             call,

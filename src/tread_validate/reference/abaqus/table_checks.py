@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from .deck_facts import DeckFacts
-from .tables import Table
+from .tables import AbaqusTable
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ REACTION_TOLERANCE = 0.05
 LARGEST_SHEAR = 3.0  # peak tangential force over peak normal force
 
 
-def against_reaction(table: Table, reaction: Array, normal: Array, shear: Array) -> str:
+def against_reaction(table: AbaqusTable, reaction: Array, normal: Array, shear: Array) -> str:
     """Compare the contact force with the road's reaction, which fixes its sign and its frame."""
     contact = np.column_stack([-shear, normal])
     scale = float(np.max(np.abs(contact)))
@@ -36,7 +36,7 @@ def against_reaction(table: Table, reaction: Array, normal: Array, shear: Array)
     return f"contact force and reaction of the road: at most {apart:.3g} N apart"
 
 
-def clock(table: Table, time: Array, facts: DeckFacts, asked: str) -> tuple[float, NDArray[np.bool_], str]:
+def clock(table: AbaqusTable, time: Array, facts: DeckFacts, asked: str) -> tuple[float, NDArray[np.bool_], str]:
     """Return when the pass starts on the table's clock, which rows belong to it, and what was found."""
     stated = table.notes.get("clock", "")
     wanted = stated if stated in ("step", "total") else asked
@@ -61,7 +61,7 @@ def clock(table: Table, time: Array, facts: DeckFacts, asked: str) -> tuple[floa
 
 
 def plausible(
-    table: Table,
+    table: AbaqusTable,
     time: Array,
     normal: Array,
     shear: Array,

@@ -29,7 +29,7 @@ NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
 @dataclass(frozen=True)
-class Table:
+class AbaqusTable:
     """Columns of numbers over time.
 
     Attributes
@@ -79,7 +79,7 @@ def leading_name(column: str) -> str:
     return name.removesuffix("_N")
 
 
-def read_table(path: Path | str) -> Table:
+def read_table(path: Path | str) -> AbaqusTable:
     """Read a force table; the layout is found from the text.
 
     Raises
@@ -107,12 +107,12 @@ def read_table(path: Path | str) -> Table:
         table = _xy_report(source, body)
     elif "," in first and _number(first.split(",")[0]) is None:
         columns = tuple(name.strip() for name in first.split(","))
-        table = Table(str(source), "csv", columns, _rows(source, body[1:], len(columns), ","), notes)
+        table = AbaqusTable(str(source), "csv", columns, _rows(source, body[1:], len(columns), ","), notes)
     elif _number(_words(first)[0]) is not None:
         width = len(_words(first))
         if width != 2:
             raise InputError(f"{source}:{number}", f"{width} numbers without names", "two: time and one force")
-        table = Table(str(source), "two columns", ("", ""), _rows(source, body, 2, None), notes)
+        table = AbaqusTable(str(source), "two columns", ("", ""), _rows(source, body, 2, None), notes)
     else:
         raise InputError(
             f"{source}:{number}", one_line(first, 60), "a CSV header, an XY report (X ...) or two columns of numbers"
@@ -132,13 +132,13 @@ def _heading_lines(body: list[tuple[int, str]]) -> int:
     return 1 if X_NAME.match(body[0][1]) else 0
 
 
-def _xy_report(source: Path, body: list[tuple[int, str]]) -> Table:
+def _xy_report(source: Path, body: list[tuple[int, str]]) -> AbaqusTable:
     count = _heading_lines(body)
     columns = _names(source, body[:count], len(_words(body[count][1])) if count < len(body) else 0)
     again = [number for number, line in body[count:] if X_NAME.match(line)]
     if again:
         raise InputError(f"{source}:{again[0]}", "a second table", "one table (the report was appended to)")
-    return Table(str(source), "xy report", columns, _rows(source, body[count:], len(columns), None, gaps=True))
+    return AbaqusTable(str(source), "xy report", columns, _rows(source, body[count:], len(columns), None, gaps=True))
 
 
 def _names(source: Path, heading: list[tuple[int, str]], width: int) -> tuple[str, ...]:
@@ -160,7 +160,7 @@ def _names(source: Path, heading: list[tuple[int, str]], width: int) -> tuple[st
     return tuple(names)
 
 
-def _without_repeats(table: Table) -> Table:
+def _without_repeats(table: AbaqusTable) -> AbaqusTable:
     """Take out the second of two rows of one time: a step's end and the next one's start."""
     time = table.values[:, 0]
     repeated = np.concatenate([[False], np.diff(time) == 0])

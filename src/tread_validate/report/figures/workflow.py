@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch
 
 from ...palette import BLUE
-from ..workflow import Rule, ancestors, columns, direct
+from ..workflow import WorkflowRule, ancestors, columns, direct
 from .style import Drawn, draw
 
 WIDE, HIGH = 1.65, 0.6  # inches a column and a row
@@ -18,7 +18,7 @@ FAINT = "#9aa3ab"
 LAST = "report"
 
 
-def rule_graph(folder: Path, rules: Sequence[Rule]) -> Drawn:
+def rule_graph(folder: Path, rules: Sequence[WorkflowRule]) -> Drawn:
     """Draw the rules in columns, each right of what it needs; what the report does not wait for is grey."""
     placed = columns(rules)
     waited = ancestors(rules, LAST) | {LAST}
@@ -61,6 +61,6 @@ def rule_graph(folder: Path, rules: Sequence[Rule]) -> Drawn:
     return draw(folder, "rule-graph", "Rules of the workflow", caption, paint, (), size, wide=True, numbers=numbers)
 
 
-def _mean(rule: Rule, height: dict[str, float]) -> float:
+def _mean(rule: WorkflowRule, height: dict[str, float]) -> float:
     known = [height[name] for name in rule.needs if name in height]
     return sum(known) / len(known) if known else 0.0

@@ -27,7 +27,7 @@ OVER = 1.3
 """Over-relaxation of free nodes: a fifth fewer sweeps; more does not help."""
 
 
-class Nodes(NamedTuple):
+class ContactNodes(NamedTuple):
     """The nodes of a contact problem.
 
     Attributes
@@ -68,7 +68,9 @@ def _kinetic(law: KernelLaw, pressure: float, speed: float) -> float:
 
 
 @kernel()
-def solve_contact(operator: Singles, nodes: Nodes, tempo: Tempo, law: KernelLaw, solver: Solver, scale: float) -> int:
+def solve_contact(
+    operator: Singles, nodes: ContactNodes, tempo: Tempo, law: KernelLaw, solver: Solver, scale: float
+) -> int:
     """Solve in place for q, force and state; return the number of sweeps.
 
     Parameters

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ...kernels import kernel
-from .contact import Nodes, Tempo, solve_contact
+from .contact import ContactNodes, Tempo, solve_contact
 from .inputs import FREE, STICK, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Solid
 
 SUNK = 1e-9
@@ -104,7 +104,9 @@ def hold(operator: Singles, begin: int, end: int, scene: Scene, tempo: Tempo, st
         _product(operator, q.ravel().astype(np.float32), force)
         area = scene.face.area[begin:end]
         codes = state.code[begin:end]
-        nodes = Nodes(q, force, work.target[begin:end], work.normal[begin:end], area, work.before[begin:end], codes)
+        nodes = ContactNodes(
+            q, force, work.target[begin:end], work.normal[begin:end], area, work.before[begin:end], codes
+        )
         sweeps = solve_contact(operator, nodes, tempo, scene.law, scene.solver, state.scale[0])
         for i in range(begin, end):
             if state.code[i] == FREE:

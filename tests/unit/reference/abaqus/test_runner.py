@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tread_validate.errors import EngineError, InputError
-from tread_validate.reference.abaqus import Settings, load_settings, run_abaqus
+from tread_validate.reference.abaqus import AbaqusSettings, load_settings, run_abaqus
 
 STAND_IN = Path(__file__).parent / "stand_in"
 COMMAND = str(STAND_IN / "abaqus")
@@ -21,7 +21,7 @@ def plan(folder: Path, **more: object) -> None:
 
 def test_job_is_submitted_extracted_and_recorded(deck, user, work):
     said: list[str] = []
-    imported = run_abaqus(deck, user, work, Settings(command=COMMAND, cpus=2), say=said.append)
+    imported = run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND, cpus=2), say=said.append)
     call = (work / "calls.txt").read_text()
     assert call == (
         "job=belt-22c-0p2mm-10mps input=belt-22c-0p2mm-10mps.inp user=vfric.f double=both cpus=2 "
@@ -38,7 +38,7 @@ def test_queue_command_comes_first(deck, user, work, tmp_path):
     queue = tmp_path / "queue"
     queue.write_text('#!/bin/sh\necho "$@" > queued.txt\nshift\nexec "$@"\n')
     queue.chmod(0o755)
-    run_abaqus(deck, user, work, Settings(command=COMMAND, queue=f"{queue} --wait"), say=lambda _: None)
+    run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND, queue=f"{queue} --wait"), say=lambda _: None)
     assert (work / "queued.txt").read_text().startswith("--wait " + COMMAND + " job=")
 
 
@@ -46,7 +46,7 @@ def test_missing_licence_is_waited_for(deck, user, work):
     """Two refusals, then a licence: two pauses of 60 s, no more."""
     plan(work, without_licence=2)
     pauses: list[float] = []
-    imported = run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None, sleep=pauses.append)
+    imported = run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND), say=lambda _: None, sleep=pauses.append)
     assert pauses == [60.0, 60.0]
     assert imported.record["licence_wait_s"] >= 120.0
 
@@ -54,7 +54,7 @@ def test_missing_licence_is_waited_for(deck, user, work):
 def test_wait_for_a_licence_ends(deck, user, work):
     plan(work, without_licence=99)
     pauses: list[float] = []
-    settings = Settings(command=COMMAND, licence_wait_s=200.0)
+    settings = AbaqusSettings(command=COMMAND, licence_wait_s=200.0)
     with pytest.raises(EngineError, match="no licence within 200 s"):
         run_abaqus(deck, user, work, settings, say=lambda _: None, sleep=pauses.append)
     assert len(pauses) <= 3
@@ -67,21 +67,21 @@ def test_wait_for_a_licence_ends(deck, user, work):
 def test_failed_job_is_an_engine_error_in_its_own_words(deck, user, work, behaviour, says):
     plan(work, **behaviour)
     with pytest.raises(EngineError, match=says):
-        run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None)
+        run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND), say=lambda _: None)
 
 
 def test_failed_job_leaves_no_result_of_an_earlier_one(deck, user, work):
     """An .odb of a run before must not be taken for this run's."""
-    run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None)
+    run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND), say=lambda _: None)
     plan(work, crash=True)
     with pytest.raises(EngineError):
-        run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None)
+        run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND), say=lambda _: None)
     assert not list(work.glob("*.odb"))
 
 
 def test_without_the_executable_the_way_round_is_named(deck, user, work):
     with pytest.raises(EngineError, match="import-abaqus"):
-        run_abaqus(deck, user, work, Settings(command="no-such-abaqus"), say=lambda _: None)
+        run_abaqus(deck, user, work, AbaqusSettings(command="no-such-abaqus"), say=lambda _: None)
 
 
 def test_job_that_hangs_is_stopped(deck, user, work, tmp_path):
@@ -89,7 +89,7 @@ def test_job_that_hangs_is_stopped(deck, user, work, tmp_path):
     slow.write_text("#!/bin/sh\nexec sleep 60\n")
     slow.chmod(0o755)
     with pytest.raises(EngineError, match="time_limit_s"):
-        run_abaqus(deck, user, work, Settings(command=str(slow), time_limit_s=0.5), say=lambda _: None)
+        run_abaqus(deck, user, work, AbaqusSettings(command=str(slow), time_limit_s=0.5), say=lambda _: None)
 
 
 def test_settings_file_is_checked(tmp_path):
@@ -114,13 +114,13 @@ def test_files_that_the_deck_includes_go_with_the_job(deck, user, work):
     deck.with_name("mesh-block.inp").write_text("*NODE" + mesh.split("*STEP", 1)[0])
     deck.write_text(head + "*INCLUDE, INPUT=mesh-block.inp\n*STEP" + mesh.split("*STEP", 1)[1])
     plan(work, odb=json.loads((work / "stand_in.json").read_text())["odb"])
-    run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None)
+    run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND), say=lambda _: None)
     assert (work / "mesh-block.inp").read_text() == deck.with_name("mesh-block.inp").read_text()
 
 
 def test_forces_of_half_a_block_are_doubled(deck, user, work):
     """A deck with a set SYMMETRY_PLANE models half the block: 200 N there are 400 N of the whole."""
     deck.write_text(deck.read_text().replace("*STEP", "*NSET, NSET=SYMMETRY_PLANE\n1\n*STEP", 1))
-    imported = run_abaqus(deck, user, work, Settings(command=COMMAND), say=lambda _: None)
+    imported = run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND), say=lambda _: None)
     assert imported.history.normal_force.max() == pytest.approx(400.0, rel=1e-3)
     assert imported.record["symmetry"] == "half, forces doubled"
