@@ -35,12 +35,6 @@ class CheckFailedError(TreadValidateError):
     exit_code = 1
 
 
-class NothingComparedError(TreadValidateError):
-    """A comparison ran and found nothing that could be compared."""
-
-    exit_code = 3
-
-
 class EngineError(TreadValidateError):
     """A solver, compiler or other tool is missing, failed, or took too long."""
 

@@ -16,7 +16,7 @@ number. The digest is the same under every Python version that the package runs 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 
@@ -73,12 +73,6 @@ def digest_of(entries: tuple[str, ...], root: Path = PACKAGE) -> str:
     for file in sorted(graph.data_files(names)):
         total.update(f"{file.relative_to(root).as_posix()} {hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
     return total.hexdigest()[:16]
-
-
-def modules_of(entries: Sequence[str], root: Path = PACKAGE) -> tuple[str, ...]:
-    """Return the modules that the entries depend on, in order; ``<package> (names)`` is an ``__init__`` that passes
-    names on."""
-    return tuple(sorted(_graph(root).closure(entries)))
 
 
 @cache

@@ -7,16 +7,18 @@ from __future__ import annotations
 
 import math
 
-MM = 1e-3
-MPA = 1e6
-KPA = 1e3
+MILLI, KILO, MEGA, GIGA = 1e-3, 1e3, 1e6, 1e9
+
+MM, MS = 1e-3, 1e-3
+KPA, MPA, GPA = 1e3, 1e6, 1e9
 DEG = math.pi / 180.0
 RPM = 2.0 * math.pi / 60.0
 PERCENT = 1e-2
 US = 1e-6
+MEGABYTE = 1e6  # bytes
 
 # not 1/MM and so on: a product with a whole power of ten is rounded once
-IN_MM, IN_UM, IN_MS, IN_GRAM = 1e3, 1e6, 1e3, 1e3
+IN_MM, IN_UM, IN_MS, IN_US, IN_GRAM = 1e3, 1e6, 1e3, 1e6, 1e3
 IN_KPA, IN_MPA = 1e-3, 1e-6
 
 DECK_UNITS = "mm, tonne, s, MPa, N, degC"

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from tread_validate import deck
+from tread_validate.deck.block_mesh import BlockMesh
 from tread_validate.deck.lint import lint
-from tread_validate.deck.mesh import BlockMesh, block_mesh
+from tread_validate.deck.mesh import block_mesh
 from tread_validate.deck.mesh_file import TURNED, _jacobians
 from tread_validate.errors import InputError
 from tread_validate.fe import run_deck

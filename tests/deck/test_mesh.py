@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tread_validate import deck
-from tread_validate.deck.mesh import BlockMesh, block_mesh, layer_fractions
+from tread_validate.deck.block_mesh import BlockMesh
+from tread_validate.deck.mesh import block_mesh, layer_fractions
 from tread_validate.errors import InputError
 from tread_validate.study import Block, Case, DeckSettings, Sipe
 from tread_validate.study.case import with_mesh

@@ -10,7 +10,7 @@ import pytest
 
 from tread_validate import source_code
 from tread_validate.errors import InputError
-from tread_validate.source_code import PACKAGE, PARTS, code_digest, digest_of, modules_of
+from tread_validate.source_code import PACKAGE, PARTS, Graph, code_digest, digest_of
 from tread_validate.spring.variants import BUILT_IN, COMMON
 
 VARIANTS = {name: (*COMMON, f"spring.{place.partition(':')[0]}") for name, (place, _) in BUILT_IN.items()}
@@ -91,12 +91,12 @@ def test_a_template_counts_for_the_part_that_it_lies_beside(copy: Path) -> None:
 
 def test_names_are_traced_through_packages_to_their_modules(copy: Path) -> None:
     """The paper's variant needs the friction laws, not the condensed model that its package offers as well."""
-    names = modules_of(VARIANTS["paper"])
+    names = Graph(PACKAGE).closure(VARIANTS["paper"])
     assert "friction.laws" in names
     assert "spring (names)" in names
     assert not any(name.startswith("spring.condensed") for name in names)
-    assert "spring.condensed.march" in modules_of(VARIANTS["condensed"])
-    assert not any(name.startswith(("spring", "material", "friction")) for name in modules_of(PARTS["fe"]))
+    assert "spring.condensed.march" in Graph(PACKAGE).closure(VARIANTS["condensed"])
+    assert not any(name.startswith(("spring", "material", "friction")) for name in Graph(PACKAGE).closure(PARTS["fe"]))
 
 
 def test_a_package_s_other_modules_count_where_a_name_cannot_be_traced(tmp_path: Path) -> None:
@@ -107,7 +107,7 @@ def test_a_package_s_other_modules_count_where_a_name_cannot_be_traced(tmp_path:
     (room / "__init__.py").write_text("def __getattr__(name):\n    return find(name)\n")
     (room / "inner.py").write_text("x = 1\n")
     (tmp_path / "pkg" / "user.py").write_text("from .room import y\n")
-    assert "room.inner" in modules_of(("user",), tmp_path / "pkg")
+    assert "room.inner" in Graph(tmp_path / "pkg").closure(("user",))
 
 
 def test_an_unknown_part_is_refused() -> None:

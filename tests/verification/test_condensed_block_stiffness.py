@@ -199,7 +199,8 @@ def nonlinear_force(body, d):
     plane = 3 * body.on_symmetry_plane + 2
     for _ in range(30):
         for _ in range(2):
-            bubbles = bubbles - field.relax_modes(residual(field, u[body.elements], bubbles)[:, 8:])
+            inner = residual(field, u[body.elements], bubbles)[:, 8:].reshape(-1, 9, 1)
+            bubbles = bubbles - np.linalg.solve(field._inner, inner).reshape(-1, 3, 3)
         nodal = residual(field, u[body.elements], bubbles)[:, :8]
         force = np.zeros((count, 3))
         np.add.at(force, body.elements.ravel(), nodal.reshape(-1, 3))

@@ -37,6 +37,7 @@ def command(
     from ..errors import EngineError, InputError
     from ..fe import run_deck
     from ..fe.progress import shown_progress
+    from ..units import IN_MPA
     from .watchdog import watched
 
     if output.suffix != ".csv":
@@ -63,7 +64,7 @@ def command(
         f"energy unaccounted for {100 * balance['balance_error']:.2g} %, "
         f"artificial {100 * balance['artificial_share']:.2g} %, impacts {100 * balance['impact_share']:.2g} %; "
         f"largest logarithmic strain {100 * largest['log_strain']:.2g} %, contact pressure "
-        f"{largest['contact_pressure_Pa'] * 1e-6:.3g} MPa"
+        f"{largest['contact_pressure_Pa'] * IN_MPA:.3g} MPa"
     )
     for reason in record["reference_quality"]["reasons"]:
         typer.echo(f"not a reference: {reason}")

@@ -16,7 +16,7 @@ from ..material import MaterialRoute
 from ..palette import BLACK, BLUE, GREEN, PURPLE, SKY, VERMILION
 from ..plotting import canvas, styled
 from ..reference.rig_passes import RigPasses
-from ..units import IN_UM, KPA, MM, MPA
+from ..units import IN_MS, IN_UM, KPA, MM, MPA
 
 GREY = "#8c959f"
 COLOURS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, "#b07d00", SKY, GREY)
@@ -140,7 +140,7 @@ def belt(traces: tuple[LevelledTrace, ...], figure: Figure, mark: str = "") -> N
 def rig(passes: RigPasses, figure: Figure, mark: str = "") -> None:
     """Draw the mean pass with its range, and the peaks of the passes."""
     normal, tangential, peaks = figure.subplots(1, 3, width_ratios=(2, 2, 1))
-    ms = 1e3
+    ms = IN_MS
     normal.plot(passes.raw_time * ms, passes.raw_normal_force, ".", ms=1.5, color=GREY, label="first pass as recorded")
     for axes, forces, color, name in (
         (normal, passes.normal_force, BLUE, "normal"),

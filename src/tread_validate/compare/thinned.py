@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..history import History
-from ..units import IN_MS
+from ..units import IN_MS, KILO, US
 
-TIME_SCALE = 1e-6  # s: packed times are whole microseconds
+TIME_SCALE = US  # s: packed times are whole microseconds
 FORCE_STEPS = 20_000  # packed forces are whole steps of their largest value over this
 
 Packed = Mapping[str, Any]
@@ -45,7 +45,7 @@ def pack(history: History, samples: int) -> dict[str, Any]:
         "n": normal,
         "qs": tangential_scale,
         "q": tangential,
-        "s": _differences(history.slipping_fraction[keep] * 1e3) if history.gives_slip else None,
+        "s": _differences(history.slipping_fraction[keep] * KILO) if history.gives_slip else None,
     }
 
 

@@ -1,71 +1,19 @@
-"""The structured hexahedral mesh of a block, in coordinates that belong to the block alone.
-
-A node is named by its distance `s` behind the leading corner (along the contact face), its height fraction `u`
-(0 on the contact face, 1 at the mount) and its place `z` across the block. Where these lie in space is the business
-of `placement`.
-"""
+"""The structured hexahedral mesh of a block, or the one of its mesh file."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..study import Block, DeckSettings
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
-
-MOST_ELEMENTS = 2_000_000
-
-
-def _none() -> IntArray:
-    return np.zeros(0, dtype=np.int64)
-
-
-@dataclass(frozen=True)
-class BlockMesh:
-    """Eight-node hexahedra that fill the block; sipes are gaps without elements.
-
-    Attributes
-    ----------
-    s : (n,) array, mm
-        Distance behind the first corner to touch, measured along the contact face; 0 .. length + skew on the face,
-        a little beyond it where the walls have a draft.
-    u : (n,) array
-        Height fraction: 0 on the contact face, 1 at the mount.
-    z : (n,) array, mm
-        Place across the block, -width/2 .. width/2 on the face.
-    elements : (m, 8) array of int
-        Node indices from 0; the first four are the element's face towards the road, counter-clockwise seen from
-        inside the element.
-    face_nodes, mount_nodes : arrays of int
-        Node indices on the contact face and at the mount.
-    face_elements : array of int
-        Elements whose face 1 lies on the contact face.
-    symmetry_nodes : array of int
-        Nodes on the plane z = 0 of a block of which only z >= 0 is meshed; empty for a whole block.
-    """
-
-    s: FloatArray
-    u: FloatArray
-    z: FloatArray
-    elements: IntArray
-    face_nodes: IntArray
-    mount_nodes: IntArray
-    face_elements: IntArray
-    symmetry_nodes: IntArray = field(default_factory=_none)
-
-    @property
-    def span(self) -> float:
-        """Extent of the face in the rolling direction, mm."""
-        return float(self.s[self.face_nodes].max())
+from .block_mesh import MOST_ELEMENTS, BlockMesh, FloatArray, IntArray, finished
+from .mesh_file import mesh_of_file
 
 
 @lru_cache(maxsize=32)
@@ -83,8 +31,6 @@ def block_mesh(block: Block, settings: DeckSettings, root: Path | None = None) -
     """
     half = _is_halved(block, settings)
     if block.mesh is not None:
-        from .mesh_file import mesh_of_file
-
         return mesh_of_file(block, root if root is not None else Path())
     heights = _heights(block, settings)
     parts = _parts(block.width_mm, settings.element_size_mm)
@@ -136,19 +82,6 @@ def skew_offset(block: Block, z: FloatArray) -> FloatArray:
     """Return how far a parallelogram's edge lies behind its first corner at `z` (mm); 0 for a rectangle."""
     slope = math.tan(math.radians(block.skew_deg))
     return 0.5 * block.width_mm * abs(slope) + z * slope
-
-
-def finished(s: FloatArray, u: FloatArray, z: FloatArray, elements: IntArray) -> BlockMesh:
-    """Return the mesh with its sets: what lies at u = 0 and u = 1."""
-    return BlockMesh(
-        s=s,
-        u=u,
-        z=z,
-        elements=elements,
-        face_nodes=np.flatnonzero(u == 0.0),
-        mount_nodes=np.flatnonzero(u == 1.0),
-        face_elements=np.flatnonzero(np.all(u[elements[:, :4]] == 0.0, axis=1)),
-    )
 
 
 def _heights(block: Block, settings: DeckSettings) -> FloatArray:

@@ -6,15 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import InputError, one_line
 from ..files import read_text
 from ..study import Block
-from .mesh import MOST_ELEMENTS, BlockMesh, finished
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from ..units import IN_MM, MM
+from .block_mesh import MOST_ELEMENTS, BlockMesh, FloatArray, IntArray, finished
 
 SIZE_TOLERANCE = 1e-3  # of the block's length, width and height
 ON_PLANE = 1e-6  # of the height: nodes this close to the face or the mount lie in it
@@ -45,7 +42,7 @@ def mesh_of_file(block: Block, root: Path) -> BlockMesh:
     assert block.mesh is not None
     where = str(block.mesh)
     points, elements = _read(root / block.mesh, where)
-    points *= 1e3 if block.mesh_unit == "m" else 1.0
+    points *= IN_MM if block.mesh_unit == "m" else 1.0
     used, renumbered = np.unique(elements, return_inverse=True)
     points, elements = points[used], renumbered.reshape(-1, 8).astype(np.int64)
     _check_size(points, block, where)
@@ -102,9 +99,9 @@ def _check_size(points: FloatArray, block: Block, where: str) -> None:
         if abs(size - given) <= SIZE_TOLERANCE * given:
             continue
         hint = ""
-        if 0.9 < 1e3 * size / given < 1.1:
+        if 0.9 < IN_MM * size / given < 1.1:
             hint = "; is the file in metres (mesh_unit: m)?"
-        elif 0.9 < 1e-3 * size / given < 1.1:
+        elif 0.9 < MM * size / given < 1.1:
             hint = "; is the file in mm (mesh_unit: mm)?"
         raise InputError(where, f"{size:g} mm along {'xyz'[axis]}", f"the block's {name}, {given:g}{hint}")
 

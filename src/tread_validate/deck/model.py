@@ -19,10 +19,11 @@ from ..geometry import Path, path_of
 from ..study import Case
 from ..units import DECK_LENGTH, DECK_UNITS
 from . import sections
+from .block_mesh import BlockMesh
 from .form import Form
 from .inputs import Inputs, inputs_of
 from .keywords import comment
-from .mesh import BlockMesh, block_mesh
+from .mesh import block_mesh
 from .placement import LEAD_IN, MountTable, Placement, mount_tables, place
 from .steps import steps
 from .vfric import GENERAL, PAIRS, user_friction

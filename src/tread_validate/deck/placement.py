@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..geometry import Path
 from ..units import DECK_LENGTH
-from .mesh import BlockMesh
+from .block_mesh import BlockMesh
 
 FloatArray = NDArray[np.float64]
 
@@ -68,12 +68,6 @@ class Placement:
         c, s = math.cos(self.angle), math.sin(self.angle)
         x, y = local[:, 0], local[:, 1]
         return np.column_stack([self.origin[0] + c * x - s * y, self.origin[1] + s * x + c * y, local[:, 2]])
-
-    @property
-    def velocities(self) -> FloatArray:
-        """Velocity of every node in the rigid motion that the block starts with, (n, 2), mm/s."""
-        arm = self.points[:, :2] - self.origin
-        return np.column_stack([self.velocity[0] - self.spin * arm[:, 1], self.velocity[1] + self.spin * arm[:, 0]])
 
 
 @dataclass(frozen=True)

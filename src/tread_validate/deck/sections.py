@@ -19,10 +19,10 @@ from ..material.time_shift import told
 from ..material.wlf import referred_to
 from ..study import Case, Wlf
 from ..units import DECK_DENSITY, DECK_LENGTH, DECK_STRESS, US
+from .block_mesh import BlockMesh
 from .form import Form
 from .inputs import Inputs
 from .keywords import comment, integers, keyword, number, reals, table
-from .mesh import BlockMesh
 from .placement import LEAD_IN, Placement
 from .vfric import STATES
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..files import atomic_path
+from .explicit import Simulation
 from .stress import element_stress
-
-if TYPE_CHECKING:
-    from .explicit import Simulation
 
 FRAMES = 40
 

@@ -13,7 +13,6 @@ from ..inp import DataLine, KeywordBlock
 
 # Columns of a segment: kind (0 line, 1 arc), then for a line x0, y0, unit tangent (2), length, 0; for an arc its centre
 # (2), radius, +1 when the outward normal points away from the centre else -1, start angle, signed sweep.
-SEGMENT_COLUMNS = 7
 HALF_TURN = math.pi * (1.0 - 1e-9)
 
 

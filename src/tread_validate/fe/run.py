@@ -16,6 +16,7 @@ from ..inp import problem_of
 from ..inp.symmetry import is_half
 from ..provenance import commit, sha256_text, version
 from ..source_code import code_digest
+from ..units import IN_US
 from .axes import Axes
 from .explicit import Simulation
 from .frames import FrameWriter
@@ -131,7 +132,7 @@ def _record(
         "hourglass": sorted({section.hourglass for section in model.sections}),
         "threads": threads,
         "wall_time_s": round(wall, 3),
-        "us_per_element_step": round(simulation.kernel_seconds / simulation.increments / elements * 1e6, 4),
+        "us_per_element_step": round(simulation.kernel_seconds / simulation.increments / elements * IN_US, 4),
         "python": platform.python_version(),
         "numba": numba.__version__,
     }

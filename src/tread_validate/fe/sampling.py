@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import EngineError
+from .blocks import Blocks
 from .contact_kernel import face_areas
 from .energy import element_energies, kinetic_energy, largest_strain
 from .kernel_data import (
@@ -23,13 +24,15 @@ from .kernel_data import (
     STEP_TIME,
     TOTAL_TIME,
     USER,
+    Bodies,
+    Elements,
+    Nodes,
+    Prescribed,
 )
+from .model import Model
 from .node_state import node_state
 from .pairs import PairData
 from .stability import dot
-
-if TYPE_CHECKING:
-    from .explicit import Simulation
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +57,25 @@ class Samples:
     nodes: dict[str, list[Floats]] = field(default_factory=dict)
 
 
-def take_sample(simulation: Simulation, dt: float, energies: bool) -> None:
+class Sampled(Protocol):
+    """A model under way, as far as it is sampled; a `Simulation` is one."""
+
+    model: Model
+    blocks: Blocks
+    nodes: Nodes
+    elements: Elements
+    weights: Floats
+    bodies: Bodies
+    prescribed: Prescribed
+    pairs: list[PairData]
+    clock: Floats
+    work: Floats
+    strain: float
+    start_energy: float
+    samples: Samples
+
+
+def take_sample(simulation: Sampled, dt: float, energies: bool) -> None:
     """Keep the state of the increment just made: forces belong to its start."""
     s = simulation.samples
     time = simulation.clock[STEP_TIME] - dt
@@ -90,13 +111,13 @@ def take_sample(simulation: Simulation, dt: float, energies: bool) -> None:
         _sample_energy(simulation)
 
 
-def _areas(simulation: Simulation, data: PairData) -> None:
+def _areas(simulation: Sampled, data: PairData) -> None:
     pair = data.pair
     if pair.slaves.size:
         face_areas(pair.faces, pair.slaves, simulation.nodes.x0, simulation.nodes.u, pair.area)
 
 
-def _reaction(simulation: Simulation) -> Floats:
+def _reaction(simulation: Sampled) -> Floats:
     """Return the sum of the forces that hold prescribed nodes, (3,)."""
     p = simulation.prescribed
     nodal = p.dof[: p.bodies[0]] % 3
@@ -104,7 +125,7 @@ def _reaction(simulation: Simulation) -> Floats:
     return np.asarray(total + simulation.bodies.reaction.sum(axis=0), dtype=np.float64)
 
 
-def _sample_energy(simulation: Simulation) -> None:
+def _sample_energy(simulation: Sampled) -> None:
     stored, stress_work, hourglass, bulk = element_energies(simulation.elements, simulation.weights, simulation.nodes.u)
     now = simulation.clock[TOTAL_TIME]
     simulation.strain = largest_strain(simulation.elements, simulation.strain)

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import polar
 
 from .element_kernel import GEO_G, GEO_VOLUME, LANES, STATE_STRAIN, STATE_U
-
-if TYPE_CHECKING:
-    from .explicit import Simulation
+from .explicit import Simulation
 
 Floats = NDArray[np.float64]
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..units import MM
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -23,7 +24,7 @@ KNOT_SPACING = 12e-3  # m
 SLOPE = 0.6  # 1/m: prior standard deviation of the change of curvature over 12 mm
 BENDING = 0.5  # 1/m: prior standard deviation of the second difference of curvature over 12 mm
 CONCAVE_PENALTY = 1e3
-SCAN = np.arange(-15, 16, 3) * 1e-3  # m, about the first guess of an edge
+SCAN = np.arange(-15, 16, 3) * MM  # m, about the first guess of an edge
 SPIKE_LIMIT = 4.5  # robust standard deviations from the smoothed line
 FEWEST_PATCH_POINTS = 10
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..reference import FeStore
+from ..units import US
 from .tables import FeMesh
 
 COST_GROWTH = 4.0
@@ -22,7 +23,7 @@ def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
     """
     store = FeStore(references)
     records = [entry.record for entry in store.entries(engine)]
-    costs = [1e-6 * float(record["us_per_element_step"]) for record in records if "us_per_element_step" in record]
+    costs = [US * float(record["us_per_element_step"]) for record in records if "us_per_element_step" in record]
     by_case = {record.get("case_id"): record for record in records}
     rows = []
     for study in store.mesh_errors.studies:

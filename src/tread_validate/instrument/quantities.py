@@ -7,6 +7,8 @@ import re
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ..units import GPA, KPA, MM, MPA
+
 
 class Unit(NamedTuple):
     """value in SI = factor * number + offset."""
@@ -15,8 +17,8 @@ class Unit(NamedTuple):
     offset: float = 0.0
 
 
-PRESSURE = {"pa": Unit(1.0), "kpa": Unit(1e3), "mpa": Unit(1e6), "gpa": Unit(1e9), "n/mm2": Unit(1e6),
-            "n/mm^2": Unit(1e6), "n/mm²": Unit(1e6), "psi": Unit(6894.757293168), "n/m2": Unit(1.0)}  # fmt: skip
+PRESSURE = {"pa": Unit(1.0), "kpa": Unit(KPA), "mpa": Unit(MPA), "gpa": Unit(GPA), "n/mm2": Unit(MPA),
+            "n/mm^2": Unit(MPA), "n/mm²": Unit(MPA), "psi": Unit(6894.757293168), "n/m2": Unit(1.0)}  # fmt: skip
 FREQUENCY = {"hz": Unit(2 * math.pi), "rad/s": Unit(1.0), "khz": Unit(2e3 * math.pi), "rads": Unit(1.0),
              "rad/sec": Unit(1.0), "rad_s": Unit(1.0), "rad.s-1": Unit(1.0)}  # fmt: skip
 TEMPERATURE = {name: Unit(1.0) for name in ("c", "°c", "degc", "deg c", "deg.c", "celsius", "ºc", "˚c")} | {
@@ -24,7 +26,7 @@ TEMPERATURE = {name: Unit(1.0) for name in ("c", "°c", "degc", "deg c", "deg.c"
     name: Unit(5.0 / 9.0, -160.0 / 9.0) for name in ("f", "°f", "degf", "fahrenheit")}  # fmt: skip
 NONE = {"": Unit(1.0), "-": Unit(1.0), "1": Unit(1.0), "[-]": Unit(1.0)}
 STRAIN = {"%": Unit(0.01), "percent": Unit(0.01), "-": Unit(1.0), "1": Unit(1.0), "m/m": Unit(1.0), "strain": Unit(1.0)}
-SPEED = {"m/s": Unit(1.0), "m_s": Unit(1.0), "mm/s": Unit(1e-3), "mm_s": Unit(1e-3), "cm/s": Unit(1e-2),
+SPEED = {"m/s": Unit(1.0), "m_s": Unit(1.0), "mm/s": Unit(MM), "mm_s": Unit(MM), "cm/s": Unit(1e-2),
          "km/h": Unit(1.0 / 3.6), "m/min": Unit(1.0 / 60.0)}  # fmt: skip
 ANGLE = {"deg": Unit(math.pi / 180), "°": Unit(math.pi / 180), "rad": Unit(1.0)}
 OTHER_UNITS = {"s", "min", "h", "n", "kn", "mm", "um", "µm", "m", "g", "v", "ms", "µs", "n/m", "pa.s", "pa·s", "mpa.s",

@@ -40,8 +40,6 @@ class Bands:
     angular_frequency : (g,) array, rad/s
     storage_modulus, loss_modulus : Band
         Where the true modulus lies, about the rich curve and not about the fit: a fit outside is one that misses.
-    storage_points, loss_points : Band
-        Where a measured point lies.
     points_inside : (float, float)
         Share of the raw points (outliers counted) inside the bands for points, E' and E''.
     fit_inside : (float, float)
@@ -56,8 +54,6 @@ class Bands:
     angular_frequency: Array
     storage_modulus: Band
     loss_modulus: Band
-    storage_points: Band
-    loss_points: Band
     points_inside: tuple[float, float]
     fit_inside: tuple[float, float]
     long_term_modulus: Array
@@ -109,7 +105,7 @@ def bands(
                 f"a 95 % band of +-{100 * one[at]:.3g} %",
                 f"data that fix it to {100 * WIDEST:g} % (a narrower --band, more data, or --resamples 0 for no bands)",
             )
-    reach, inside = _reach(raw, rich, fit)
+    inside = _points_inside(raw, rich, fit)
     low, high = centre * np.exp(-half), centre * np.exp(half)
     fitted = np.array([fit.series.storage_modulus(w), fit.series.loss_modulus(w)])
     held = np.mean((fitted >= low) & (fitted <= high), axis=1)
@@ -118,8 +114,6 @@ def bands(
         angular_frequency=w,
         storage_modulus=Band(centre[0], low[0], high[0]),
         loss_modulus=Band(centre[1], low[1], high[1]),
-        storage_points=Band(centre[0], centre[0] * np.exp(-reach[0]), centre[0] * np.exp(reach[0])),
-        loss_points=Band(centre[1], centre[1] * np.exp(-reach[1]), centre[1] * np.exp(reach[1])),
         points_inside=inside,
         fit_inside=(float(held[0]), float(held[1])),
         long_term_modulus=terms[:, 0],
@@ -143,16 +137,16 @@ def _spread(data: Array, rich: RichCurve, scatters: tuple[Scatter, Scatter], w: 
     return np.asarray(np.sqrt(variance).reshape(2, -1), dtype=np.float64)
 
 
-def _reach(raw: tuple[Array, Array, Array], rich: RichCurve, fit: PronyFit) -> tuple[list[float], tuple[float, float]]:
-    """Return the relative half-widths of the bands for points, and the share of all raw points inside them."""
+def _points_inside(raw: tuple[Array, Array, Array], rich: RichCurve, fit: PronyFit) -> tuple[float, float]:
+    """Return the share of all raw points inside the bands for points, E' and E''."""
     w, *measured = raw
     curve, used = rich.moduli(w), rich.moduli(fit.angular_frequency)
-    reach, inside = [], []
+    inside = []
     for k, data in enumerate((fit.storage_modulus, fit.loss_modulus)):
         alone = np.abs(np.log(data / used[k])) / np.sqrt(np.maximum(1.0 - rich.leverage[k], 0.1))
-        reach.append(float(np.quantile(alone, 0.95, method="higher")))
-        inside.append(float(np.mean(np.abs(np.log(measured[k] / curve[k])) <= reach[-1])))
-    return reach, (inside[0], inside[1])
+        reach = float(np.quantile(alone, 0.95, method="higher"))
+        inside.append(float(np.mean(np.abs(np.log(measured[k] / curve[k])) <= reach)))
+    return inside[0], inside[1]
 
 
 def _terms(fit: PronyFit, scatters: tuple[Scatter, Scatter], loss_weight: float, replicates: int, seed: int) -> Array:

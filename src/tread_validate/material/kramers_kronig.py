@@ -28,10 +28,9 @@ class KramersKronig:
 
     Attributes
     ----------
-    predicted_storage_modulus : (m,) array, Pa
-        From the loss modulus, with the constant that fits best.
     mismatch : float
-        Root mean square of predicted over measured E', less 1; the noise between neighbouring points taken off.
+        Root mean square of E' predicted from the loss modulus, with the constant that fits best, over E' measured,
+        less 1; the noise between neighbouring points taken off.
     noise : float
         Relative standard deviation of E' between neighbouring points.
     dispersion_ratio : float
@@ -40,7 +39,6 @@ class KramersKronig:
         Its standard deviation from the noise: a narrow band does not hold the ratio well.
     """
 
-    predicted_storage_modulus: Array
     mismatch: float
     noise: float
     dispersion_ratio: float
@@ -82,7 +80,7 @@ def kramers_kronig(angular_frequency: Array, storage_modulus: Array, loss_modulu
     spread = float(np.linalg.inv(rows.T @ rows)[1, 1]) ** 0.5
     lost = scatter(w, ((x / (1.0 + x * x)) @ spectrum) / loss_modulus - 1.0, 2.0).noise
     deviation = float(np.hypot(noise * spread, 2.0 * lost / np.sqrt(w.size)))
-    return KramersKronig(predicted, mismatch, noise, ratio, deviation)
+    return KramersKronig(mismatch, noise, ratio, deviation)
 
 
 def _spectrum(w: Array, loss: Array, times: Array, order: NDArray[np.intp]) -> Array:

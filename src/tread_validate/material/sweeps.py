@@ -11,29 +11,19 @@ import numpy as np
 from ..errors import InputError
 from ..instrument import Reading
 from ..study import TimeShift
+from ..units import GPA, KPA, MPA
 from .dma_file import DmaTable, read_dma
 from .ramps import isothermal, ramp_rounds
 from .sweep import Sweep
 
 COLUMNS = ("temperature_degC", "frequency_Hz", "storage_modulus_Pa", "loss_modulus_Pa")
-UNITS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
+UNITS = {"Pa": 1.0, "kPa": KPA, "MPa": MPA, "GPa": GPA}
 SAME_TEMPERATURE = 0.6  # K: an instrument holds its set point no better
 PLAUSIBLE_MODULUS = (1e4, 1e12)  # Pa, of the median storage modulus of a solid polymer
 PLAUSIBLE_TEMPERATURE = (-170.0, 300.0)  # degC
 FEWEST_POINTS = 5
 LARGEST_FREQUENCY, LARGEST_MODULUS = 1e20, 1e15  # Hz, Pa
 SAME_FREQUENCY = 0.4  # in ln f: back at the first one
-
-
-def read_sweeps(
-    path: Path | str | Sequence[Path | str],
-    modulus_unit: str | None = None,
-    confirm_units: bool = False,
-    reference_temperature: float | None = None,
-    reading: Reading | None = None,
-) -> tuple[Sweep, ...]:
-    """Read sweeps as an analyser exports them, from one file or several; see `read_export`."""
-    return read_export(path, modulus_unit, confirm_units, reference_temperature, reading)[0]
 
 
 def read_export(

@@ -41,7 +41,7 @@ def synthetic_sweeps(
 
 
 def sweeps_csv(sweeps: tuple[Sweep, ...], comments: Mapping[str, str]) -> str:
-    """Return sweeps as CSV in the columns that `read_sweeps` reads; temperatures wander by less than 0.1 K."""
+    """Return sweeps as CSV in the columns that `read_export` reads; temperatures wander by less than 0.1 K."""
     lines = [f"# {key}: {value}" for key, value in comments.items()]
     lines.append(",".join(COLUMNS))
     for sweep in sweeps:

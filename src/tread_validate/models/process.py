@@ -12,6 +12,7 @@ from pathlib import Path
 
 from ..errors import one_line
 from ..files import atomic_path
+from ..units import MEGABYTE
 
 POLL = 0.002
 """Longest time between looks at a running child, s."""
@@ -98,7 +99,7 @@ def _memory(pid: int) -> float | None:
         lines = Path(f"/proc/{pid}/status").read_text(encoding="ascii", errors="replace").splitlines()
     except OSError:
         return None
-    return next((float(line.split()[1]) * 1024 / 1e6 for line in lines if line.startswith("VmHWM:")), None)
+    return next((float(line.split()[1]) * 1024 / MEGABYTE for line in lines if line.startswith("VmHWM:")), None)
 
 
 def _kill(group: int) -> None:

@@ -20,6 +20,7 @@ from typing import Any, TextIO
 from ..case_file.document import CaseFile
 from ..case_file.io import read_case
 from ..errors import InputError, TreadValidateError, one_line
+from ..units import MEGABYTE
 from .checks import as_history
 
 GROUP = "tread_validate.models"
@@ -77,7 +78,7 @@ def _run(function: Function, case: Path, target: Path) -> dict[str, Any]:
 
 def _cost(started: float) -> dict[str, float]:
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-    return {"cpu_s": time.process_time() - started, "memory_MB": peak / 1e6}
+    return {"cpu_s": time.process_time() - started, "memory_MB": peak / MEGABYTE}
 
 
 def _message(error: Exception) -> str:

@@ -7,18 +7,18 @@ import math
 from ..errors import InputError
 from ..instrument.quantities import Unit
 from ..instrument.recognise import split_heading
+from ..units import KILO, MEGA, MILLI, MS, US
 
-FORCE = {"n": Unit(1.0), "kn": Unit(1e3), "mn": Unit(1e-3), "dan": Unit(10.0), "lbf": Unit(4.4482216152605),
+FORCE = {"n": Unit(1.0), "kn": Unit(KILO), "mn": Unit(MILLI), "dan": Unit(10.0), "lbf": Unit(4.4482216152605),
          "kgf": Unit(9.80665), "newton": Unit(1.0), "newtons": Unit(1.0)}  # fmt: skip
-TIME_UNITS = {"s": Unit(1.0), "ms": Unit(1e-3), "us": Unit(1e-6), "µs": Unit(1e-6), "sec": Unit(1.0), "min": Unit(60.0)}
-VOLT = {"v": Unit(1.0), "mv": Unit(1e-3), "volt": Unit(1.0), "volts": Unit(1.0), "-": Unit(1.0), "ttl": Unit(1.0)}
+TIME_UNITS = {"s": Unit(1.0), "ms": Unit(MS), "us": Unit(US), "µs": Unit(US), "sec": Unit(1.0), "min": Unit(60.0)}
+VOLT = {"v": Unit(1.0), "mv": Unit(MILLI), "volt": Unit(1.0), "volts": Unit(1.0), "-": Unit(1.0), "ttl": Unit(1.0)}
 ANGLES = {"rad": Unit(1.0), "deg": Unit(math.pi / 180), "°": Unit(math.pi / 180), "degree": Unit(math.pi / 180),
           "degrees": Unit(math.pi / 180), "rev": Unit(2 * math.pi)}  # fmt: skip
 OF = {"time_s": TIME_UNITS, "normal_force_N": FORCE, "tangential_force_N": FORCE, "trigger_V": VOLT,
       "wheel_angle_rad": ANGLES, "wheel_angle_deg": ANGLES}  # fmt: skip
 DEFAULT = {"time_s": "s", "normal_force_N": "N", "tangential_force_N": "N", "trigger_V": "V", "wheel_angle_rad": "rad",
            "wheel_angle_deg": "deg"}  # fmt: skip
-MILLINEWTON = "mN"  # told from MN by its first letter
 
 
 def channel_factor(name: str, unit: str, where: str) -> float:
@@ -29,7 +29,7 @@ def channel_factor(name: str, unit: str, where: str) -> float:
     said = unit.strip() or DEFAULT[name]
     known = OF[name]
     if name in ("normal_force_N", "tangential_force_N") and said in ("MN", "meganewton"):
-        return 1e6
+        return MEGA
     if said.lower() not in known:
         raise InputError(where, f"the unit '{unit}'", f"a unit of {name} ({', '.join(list(known)[:4])}, ...)")
     return known[said.lower()].factor

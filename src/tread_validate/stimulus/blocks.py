@@ -9,7 +9,7 @@ from ..errors import InputError
 from ..history import History
 from ..study import Case
 from ..units import MM
-from .pitch import PitchSequence, RibBlocks
+from .pitch import RibBlocks
 
 SAME_LENGTH = 1e-6  # m
 
@@ -70,12 +70,3 @@ def by_history(case: Case, history: History, where: str) -> Callable[[RibBlocks]
         return history
 
     return history_of
-
-
-def single_size(case: Case, sequence: PitchSequence) -> bool:
-    """Whether every block of the sequence is the case's own."""
-    return all(
-        abs(item.block_length - case.length) < SAME_LENGTH
-        and (item.block_width is None or abs(item.block_width - case.width) < SAME_LENGTH)
-        for item in sequence.placements()
-    )

@@ -29,11 +29,6 @@ def marks(owner: type[Any]) -> dict[str, tuple[object, ...]]:
     return {item.name: tuple(getattr(hints[item.name], "__metadata__", ())) for item in dataclasses.fields(owner)}
 
 
-def label_of(found: tuple[object, ...]) -> Label | None:
-    """Return the label among a field's marks."""
-    return next((mark for mark in found if isinstance(mark, Label)), None)
-
-
 def digest_of(item: object, root: Path, solvers: tuple[str, ...] = ()) -> str:
     """Return the SHA-256 of all that decides in a model or dataclass, in hex.
 

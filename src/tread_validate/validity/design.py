@@ -12,6 +12,7 @@ from ..geometry import Block, PathEntry
 from ..geometry.paths.rig import Rig
 from ..geometry.paths.simplified_belt import SimplifiedBelt
 from ..study import Case
+from ..units import MM
 
 SEED = 20100672
 HEIGHT_MM = 8.0
@@ -74,7 +75,7 @@ def _case(base: Case, number: int, unit: dict[str, float]) -> Case:
     creep = float(np.clip(at["creep"] * limit, -0.15, 0.15))
     return replace(
         base, case_id=f"map-{number:03d}", block=block, path=path, friction=law, block_name="map", path_name="map",
-        friction_name="map", run="map", temperature=round(at["temperature"], 2), interference=strain * HEIGHT_MM * 1e-3,
+        friction_name="map", run="map", temperature=round(at["temperature"], 2), interference=strain * HEIGHT_MM * MM,
         speed=at["speed_m_s"], speed_rpm=None, creep_ratio=round(creep, 6), free_rolling=False,
         compound=base.compound.model_copy(update={"poissons_ratio": nu}),
     )  # fmt: skip

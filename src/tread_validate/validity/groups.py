@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..geometry import path_of
 from ..spring.rubber import law_of, series_of
 from ..study import Case
+from ..units import MM
 
 Array = NDArray[np.float64]
 
@@ -62,7 +63,7 @@ def groups_of(case: Case) -> Groups:
     assert case.creep_ratio is not None
     path, series = path_of(case), series_of(case)
     height = case.height
-    length, width = case.block.length_mm * 1e-3, case.block.width_mm * 1e-3
+    length, width = case.block.length_mm * MM, case.block.width_mm * MM
     nu, friction = case.compound.poissons_ratio, law_of(case).static_coefficient
     bend = abs(float(path.line.curvature(path.first_contact_arc)))
     bend += 0.0 if path.road.is_plane else 1.0 / path.road.radius

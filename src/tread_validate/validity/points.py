@@ -16,6 +16,7 @@ from ..source_code import code_digest, digest_of
 from ..spring import run
 from ..spring.variants import code_digest as model_digest
 from ..study import Case
+from ..units import IN_MM, IN_US
 from .groups import groups_of
 
 MODELS = ("paper", "shape_factor", "condensed_coarse", "condensed")
@@ -96,7 +97,7 @@ def meshed(case: Case, parts: int) -> Case:
     """Return the case with `parts` elements per height; half of a block that z = 0 halves."""
     whole = case.block.shape != "rectangle" or case.block.mesh is not None
     settings = case.deck.model_copy(update={
-        "element_size_mm": case.height * 1e3 / parts, "layers": parts, "history_interval_us": _interval(case),
+        "element_size_mm": case.height * IN_MM / parts, "layers": parts, "history_interval_us": _interval(case),
         "field_frames": 1, "constant_friction_variant": False, "symmetry": "full" if whole else "half",
     })  # fmt: skip
     return replace(case, deck=settings)
@@ -124,7 +125,7 @@ def _interval(case: Case) -> float:
     """Return the time between samples, us: 400 over the pass."""
     from ..geometry import path_of
 
-    return float(np.clip(1e6 * path_of(case).contact_duration / 400.0, 2.0, 100.0))
+    return float(np.clip(IN_US * path_of(case).contact_duration / 400.0, 2.0, 100.0))
 
 
 def model_point(case: Case, model: str) -> dict[str, Any]:

@@ -28,7 +28,7 @@ from tread_validate.geometry.trace_import import read_ridges
 from tread_validate.history import History
 from tread_validate.inp import read_deck
 from tread_validate.material.material_file import read_material
-from tread_validate.material.sweeps import read_sweeps
+from tread_validate.material.sweeps import read_export
 from tread_validate.reference.abaqus import load_settings, read_table
 from tread_validate.reference.rig_record import read_record
 from tread_validate.stimulus import load_pitch_sequence, read_impulse_response, read_transfer_function
@@ -154,7 +154,7 @@ READERS = (
         lambda h: rising(h.time) and finite(h.normal_force) and given_or_not(h.tangential_force, h.slipping_fraction),
     ),
     Reader(
-        "DMA sweeps", ".csv", file("reference_data/material/synthetic_sweeps.csv"), read_sweeps,
+        "DMA sweeps", ".csv", file("reference_data/material/synthetic_sweeps.csv"), read_export,
         lambda sweeps: all(rising(s.angular_frequency) and (s.storage_modulus > 0).all() for s in sweeps),
     ),
     Reader(

@@ -10,7 +10,7 @@ import pytest
 
 from tread_validate.errors import InputError
 from tread_validate.material import RouteSettings, read_route
-from tread_validate.material.sweeps import COLUMNS, read_sweeps
+from tread_validate.material.sweeps import COLUMNS, read_export
 from tread_validate.study import Wlf
 
 WLF = Wlf(c1=8.86, c2_K=101.6, reference_temperature_degC=10.0)
@@ -31,7 +31,7 @@ def write(folder: Path, rows: list[Row], header: tuple[str, ...] = COLUMNS) -> P
 def test_sweeps_are_told_apart_by_temperature_and_sorted_by_frequency(tmp_path: Path) -> None:
     rows = rows_of()
     falling = rows[:12][::-1] + rows[12:]
-    sweeps = read_sweeps(write(tmp_path, falling))
+    sweeps = read_export(write(tmp_path, falling))[0]
     assert [sweep.temperature for sweep in sweeps] == pytest.approx([10.0, 22.0, 40.0])
     assert all(np.all(np.diff(sweep.angular_frequency) > 0) for sweep in sweeps)
     assert sweeps[0].line[0] == 13  # the lowest frequency stood last
@@ -40,13 +40,13 @@ def test_sweeps_are_told_apart_by_temperature_and_sorted_by_frequency(tmp_path: 
 @pytest.mark.parametrize("falling", [False, True])
 def test_a_dense_sweep_is_one_sweep_and_its_repetition_another(tmp_path: Path, falling: bool) -> None:
     rows = rows_of((22.0,), 300)[:: -1 if falling else 1]  # 100 points a decade: the fifth is still near the first
-    sweeps = read_sweeps(write(tmp_path, rows + rows))
+    sweeps = read_export(write(tmp_path, rows + rows))[0]
     assert [sweep.line.size for sweep in sweeps] == [300, 300]
 
 
 def test_stated_unit_scales_both_moduli(tmp_path: Path) -> None:
     rows = [[t, f, s / 1e6, loss / 1e6] for t, f, s, loss in rows_of()]
-    sweeps = read_sweeps(write(tmp_path, rows), modulus_unit="MPa")
+    sweeps = read_export(write(tmp_path, rows), modulus_unit="MPa")[0]
     assert sweeps[0].storage_modulus[0] == pytest.approx(rows_of()[0][2], rel=1e-5)
 
 
@@ -96,7 +96,7 @@ def test_wrong_sweeps_are_refused(tmp_path: Path, alter: Callable[[list[Row]], N
     rows = rows_of()
     alter(rows)
     with pytest.raises(InputError) as refused:
-        read_sweeps(write(tmp_path, rows))
+        read_export(write(tmp_path, rows))[0]
     assert where in str(refused.value)
     assert reason in str(refused.value)
 
@@ -104,7 +104,7 @@ def test_wrong_sweeps_are_refused(tmp_path: Path, alter: Callable[[list[Row]], N
 def test_confirmed_units_are_taken(tmp_path: Path) -> None:
     rows = rows_of()
     megapascal(rows)
-    assert read_sweeps(write(tmp_path, rows), confirm_units=True)[0].storage_modulus[0] < 100.0
+    assert read_export(write(tmp_path, rows), confirm_units=True)[0][0].storage_modulus[0] < 100.0
 
 
 @pytest.mark.parametrize("temperature", [-91.6, -120.0])

@@ -15,7 +15,7 @@ from tread_validate.stimulus import (
     respond,
     superpose,
 )
-from tread_validate.stimulus.blocks import belt_case, by_history, by_model, single_size
+from tread_validate.stimulus.blocks import belt_case, by_history, by_model
 from tread_validate.stimulus.output import force_csv, spectrum_csv, summary_rows
 
 PITCH = """\
@@ -173,11 +173,9 @@ def test_model_runs_once_per_block_size(tmp_path, belt):
 
 def test_given_history_serves_its_own_block_only(tmp_path, belt):
     sequence = load_pitch_sequence(write(tmp_path, PITCH))
-    assert not single_size(belt, sequence)
     with pytest.raises(InputError, match="20 x 20 mm"):
         superpose(sequence, belt.speed, by_history(belt, pulse(), "fe.csv"))
     own = PitchSequence.model_validate({**sequence.model_dump(), "ribs": [{"name": "a", "sequence": ["long"]}]})
-    assert single_size(belt, own)
     assert superpose(own, belt.speed, by_history(belt, pulse(), "fe.csv")).mean_normal_force > 0
 
 

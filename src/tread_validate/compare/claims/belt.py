@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...study import Case
-from ...units import IN_MPA
+from ...units import IN_MPA, MPA
 from ..quantities import contact_window
 from ..runs import SourceRun
 from ..scores.align import align
@@ -91,7 +91,7 @@ def _strain(evidence: Evidence, source: str) -> Computed:
     pressure = _at_published_creep(_pressure)(evidence, source)
     if pressure.value is None or modulus is None:
         return pressure if pressure.value is None else nothing("the compound was not fitted over a band")
-    return Computed(100.0 * 1e6 * pressure.value / modulus, pressure.case_ids, assumed=pressure.assumed)
+    return Computed(100.0 * MPA * pressure.value / modulus, pressure.case_ids, assumed=pressure.assumed)
 
 
 def _creep(evidence: Evidence, source: str) -> Computed:

@@ -105,4 +105,4 @@ def _rounded(value: float | None) -> float | None:
 
 
 def _metres(value: float | None) -> float | None:
-    return None if value is None else round(1e-3 * value, 12)
+    return None if value is None else round(MM * value, 12)

@@ -12,7 +12,7 @@ from ...geometry.trace_curvature import three_point_curvature
 from ...geometry.trace_file import read_belt
 from ...material import prony_series, relative_shift
 from ...study import Case
-from ...units import IN_GRAM, IN_KPA, IN_MPA
+from ...units import IN_GRAM, IN_KPA, IN_MPA, MILLI
 from .claim import Compute, Computed, Evidence, is_measured, nothing
 
 GRAVITY = 9.80665  # m/s2
@@ -122,7 +122,7 @@ def _printed_mean(name: str) -> Compute:
 
 STUDY: dict[str, Compute] = {
     "band_low_at_60": _band(0, 1.0),
-    "band_high_at_60": _band(1, 1e-3),
+    "band_high_at_60": _band(1, MILLI),
     "average_modulus": _average_modulus,
     "block_mass": _from_belt(lambda case: IN_GRAM * _mass(case)),
     "inertia_pressure": _from_belt(lambda case: IN_KPA * ESTIMATE_FORCE / (case.length * case.width)),

@@ -32,11 +32,6 @@ OPEN = re.compile(
 """Types whose node count a name does not tell, user elements among them."""
 
 
-def is_user(kind: str) -> bool:
-    """Whether the type is a user element (U5, VU12)."""
-    return re.fullmatch(r"V?U\d+", kind) is not None
-
-
 def node_count(kind: str) -> int | None:
     """Return the number of nodes of an element type; None where its name does not tell.
 

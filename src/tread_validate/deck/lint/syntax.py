@@ -30,7 +30,6 @@ STRICT_FORM = frozenset({
     "STEP", "END STEP", "FRICTION", "VISCOELASTIC", "PART", "END PART",
 })  # fmt: skip
 """Keywords whose count of lines and fields is certain; that of others is a warning."""
-CALCULIX_FREE = frozenset({"CONTACT PAIR", "NODE FILE", "EL FILE", "NODE PRINT", "EL PRINT"})
 
 
 def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> None:

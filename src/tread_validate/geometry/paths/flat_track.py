@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
 from ...fields import Positive
-from ...units import IN_MM, IN_MS
+from ...units import IN_MM, IN_MS, MS
 from ..block import block_profile
 from ..columns import Columns
 from ..line import EMPTY_TABLE
@@ -109,7 +109,7 @@ class FlatTrack(PathEntry):
         check_interference(run)
         profile = block_profile(run.block)
         pressed, released, left = (
-            1e-3 * time * run.speed
+            MS * time * run.speed
             for time in (
                 self.approach_ms,
                 self.approach_ms + self.hold_ms,

@@ -16,6 +16,7 @@ from ...errors import InputError
 from ...history import History
 from ...inp import DeckFiles
 from ...source_code import code_digest
+from ...units import KILO, MILLI, MS, US
 from ...yaml_text import read_mapping, write_yaml
 from ..fe_store import FeStore
 from ..filing import file_run, read_run
@@ -23,8 +24,8 @@ from .deck_facts import DeckFacts, deck_facts
 from .table_checks import against_reaction, clock, plausible
 from .tables import AbaqusTable, read_table
 
-FORCE_UNITS = {"N": 1.0, "kN": 1e3, "mN": 1e-3}
-TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
+FORCE_UNITS = {"N": 1.0, "kN": KILO, "mN": MILLI}
+TIME_UNITS = {"s": 1.0, "ms": MS, "us": US}
 
 
 @dataclass(frozen=True)

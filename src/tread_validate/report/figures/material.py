@@ -16,7 +16,7 @@ from ...units import MPA
 from ..content import Mark
 from .style import Drawn, draw
 
-PRESSURES = (0.08e6, 0.2e6, 0.4e6, 1.0e6)  # Pa
+PRESSURES = (0.08 * MPA, 0.2 * MPA, 0.4 * MPA, 1.0 * MPA)
 
 
 def moduli(folder: Path, name: str, compound: Compound, root: Path, marks: tuple[Mark, ...]) -> Drawn:

@@ -60,11 +60,6 @@ class IncompatibleField:
         both = np.concatenate([displacement, amplitudes], axis=1)
         return np.asarray(np.swapaxes(both, 1, 2) @ gradients, dtype=np.float64), det
 
-    def relax_modes(self, residual: Array) -> Array:
-        """Return the change of the internal modes, (m, 3, 3), that a residual (m, 3, 3) on them asks for."""
-        solved = np.linalg.solve(self._inner, residual.reshape(-1, 9, 1))
-        return np.asarray(solved.reshape(-1, 3, 3), dtype=np.float64)
-
     def shape_gradients(self, point: Array) -> tuple[Array, Array]:
         """Return the gradients of the 8 shape functions and 3 modes (m, 11, 3), 1/m, and the volumes (m,), m3."""
         jacobian = _jacobian(self._nodes, point)
