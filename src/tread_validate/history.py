@@ -27,6 +27,8 @@ NEEDED = COLUMNS[:2]
 """What every history has; a model that does not know the others leaves them out."""
 OPTIONAL = ("tangential_force", "slipping_fraction")
 FORMATS = ("%.9f", "%.5f", "%.5f", "%.5f")
+CHECKSUM = "rows_sha256"
+"""Key of the provenance under which a history carries the digest of its own numbers."""
 MINUS_NOTHING = re.compile(r"-(0\.0+)(?=[,\n])")  # what rounds to zero has no sign; a time of -1e-6 s keeps its own
 
 
@@ -94,6 +96,10 @@ class History:
     def with_provenance(self, provenance: Mapping[str, str]) -> History:
         """Return the same forces with another provenance."""
         return replace(self, provenance=provenance)
+
+    def with_checksum(self) -> History:
+        """Return the same history with the digest of its numbers in its provenance."""
+        return self.with_provenance({**self.provenance, CHECKSUM: self.digest()})
 
     def to_frame(self) -> pd.DataFrame:
         """Return the history as a data frame, with the columns that are given, units in their names."""

@@ -10,7 +10,7 @@ from ..history import History
 from ..models.code import code_of
 from ..models.outcome import RunOutcome, read_outcome
 from ..study import Case, LoadedStudy
-from .runs import SourceRun, with_scalars
+from .runs import SourceRun, altered, with_scalars
 
 
 def model_source(name: str) -> str:
@@ -53,7 +53,11 @@ def _run(source: str, case: Case, stem: Path, code: str) -> SourceRun:
     bound = (history.provenance.get("case_digest"), history.provenance.get("code"))
     if bound != (outcome.case_digest, outcome.code_digest):
         return bad("unbound", "its header does not say that it was made for this case by this model")
-    return with_scalars(SourceRun(source, case.case_id, "current", digest=history.digest()), history, None)
+    digest = history.digest()
+    status, note = altered(history, digest)
+    if status != "current":
+        return bad(status, note)
+    return with_scalars(SourceRun(source, case.case_id, "current", digest=digest), history, None)
 
 
 def _stale(outcome: RunOutcome, case: Case, code: str) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import InputError, one_line
-from ..history import History
+from ..history import CHECKSUM, History
 from ..inp import deck_files
 from ..reference import FeStore
 from ..spring.variants import code_digest
@@ -104,13 +104,14 @@ def _spring_run(source: str, case: Case, path: Path) -> SourceRun:
         history = History.read_csv(path)
     except InputError as error:
         return SourceRun(source, case.case_id, "corrupt", one_line(f"{path.name}: {error.found}"))
-    status, note = _binding(history, case, source.partition(":")[2])
-    run = SourceRun(source, case.case_id, status, note, digest=history.digest())
+    digest = history.digest()
+    status, note = _binding(history, digest, case, source.partition(":")[2])
+    run = SourceRun(source, case.case_id, status, note, digest=digest)
     return run if status != "current" else with_scalars(run, history, None)
 
 
-def _binding(history: History, case: Case, variant: str) -> tuple[str, str]:
-    """Return whether a history is of today's case and code: a status, and why it is not current."""
+def _binding(history: History, digest: str, case: Case, variant: str) -> tuple[str, str]:
+    """Return whether a history is of today's case and code, and as it was written: a status, and why it is not."""
     today = {"case_digest": case.digest("spring"), "code": code_digest(variant)}
     for key, what in (("case_digest", "inputs"), ("code", "code")):
         found = history.provenance.get(key)
@@ -118,6 +119,16 @@ def _binding(history: History, case: Case, variant: str) -> tuple[str, str]:
             return "unbound", f"no {key} in its header: nobody knows what it was made from"
         if found != today[key]:
             return "stale", f"made from other {what} ({found[:12]}, today {today[key][:12]})"
+    return altered(history, digest)
+
+
+def altered(history: History, digest: str) -> tuple[str, str]:
+    """Return whether a history has the numbers that it was written with: a status, and why it is not current."""
+    written = history.provenance.get(CHECKSUM)
+    if written is None:
+        return "unbound", f"no {CHECKSUM} in its header: nobody knows whether its numbers are those of the run"
+    if written != digest:
+        return "corrupt", f"altered or cut off since it was written ({CHECKSUM} {written[:12]}, now {digest[:12]})"
     return "current", ""
 
 

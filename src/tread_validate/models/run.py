@@ -207,4 +207,4 @@ def _bind(history: History, job: Job, case: Case, digest: str) -> History:
             "free_rolling": str(case.free_rolling).lower(),
             "assumed": "; ".join(case.assumed()) or "none",
         }
-    )
+    ).with_checksum()

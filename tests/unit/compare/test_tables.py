@@ -18,7 +18,7 @@ import yaml
 
 from tread_validate.compare.quantities import HISTORIES, HISTORY_METRICS, SCALARS
 from tread_validate.compare.tables import TABLES, MetricRow
-from tread_validate.history import History
+from tread_validate.history import CHECKSUM, History
 
 Workspace = Any  # of conftest.py
 CASES = 2 * 2 * 2 * 3 + 4
@@ -78,7 +78,7 @@ def test_every_case_has_the_same_rows_whatever_its_reference(copy: Workspace) ->
         stream.write("1.0,0.0,0.0,0.0\n")
     spring = copy.folder / "spring" / "paper" / f"{ids[4]}.csv"
     made = History.read_csv(spring).provenance
-    History([0.0, 1.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], made).write_csv(spring)
+    History([0.0, 1.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], made).with_checksum().write_csv(spring)
     rows = [row for row in read(copy.build() / "errors.csv") if row["reference_source"] == "fe:embedded"]
     assert len(rows) == CASES * ROWS_PER_CASE
     for case_id, status in zip(ids[:5], ("missing", "stale", "corrupt", "corrupt", "no_contact"), strict=True):
@@ -106,7 +106,13 @@ def test_a_spring_run_of_other_inputs_is_stale(copy: Workspace) -> None:
 
 @pytest.mark.parametrize(
     ("key", "value", "status"),
-    [("code", "0" * 16, "stale"), ("code", None, "unbound"), ("case_digest", None, "unbound")],
+    [
+        ("code", "0" * 16, "stale"),
+        ("code", None, "unbound"),
+        ("case_digest", None, "unbound"),
+        (CHECKSUM, None, "unbound"),
+        (CHECKSUM, "0" * 64, "corrupt"),
+    ],
 )
 def test_a_spring_run_of_other_code_or_of_none_is_never_compared(
     key: str, value: str | None, status: str, copy: Workspace
@@ -119,6 +125,23 @@ def test_a_spring_run_of_other_code_or_of_none_is_never_compared(
     out = copy.build()
     assert {row["status"] for row in read(out / "peaks.csv") if row["source"] == "spring:paper"} == {status}
     assert {row["assessment"] for row in read(out / "errors.csv")} == {"cannot tell"}
+
+
+@pytest.mark.parametrize("damage", ["cut off", "one digit"])
+def test_a_spring_run_that_is_not_as_it_was_written_is_never_compared(damage: str, copy: Workspace) -> None:
+    """Its header is whole and its rows are numbers, but not those of the run: half of them, or one altered."""
+    path = next((copy.folder / "spring" / "paper").glob("*-*.csv"))
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    if damage == "cut off":
+        lines = lines[:-2]
+    else:
+        cells = lines[-40].split(",")
+        lines[-40] = ",".join([cells[0], f"{float(cells[1]) + 1e-5:.5f}", *cells[2:]])
+    path.write_text("".join(lines), encoding="utf-8")
+    rows = [row for row in read(copy.build() / "peaks.csv") if row["source"] == "spring:paper"]
+    (bad,) = [row for row in rows if row["status"] != "current"]
+    assert (bad["case_id"], bad["status"]) == (path.stem, "corrupt")
+    assert "altered or cut off" in bad["note"]
 
 
 def test_a_reference_of_other_code_is_compared_and_marked(copy: Workspace) -> None:
