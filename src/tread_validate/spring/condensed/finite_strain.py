@@ -35,9 +35,9 @@ def second_order_arrays(block: Block, shape: FreeShape, body: Body, poissons_rat
     loads[:, held] = 0.0
     near, share = neighbours(coarse, body)
     return {
-        "gather": gathered(near, share, body.area, coarse.nodes_per_layer).astype(np.float32),
-        "gradient": stretch.astype(np.float32),
-        "spread": -np.linalg.solve(stiffness, loads.T).astype(np.float32),
+        "gather": gathered(near, share, body.area, coarse.nodes_per_layer).T.astype(np.float32, order="C"),
+        "gradient": stretch.T.astype(np.float32, order="C"),
+        "spread": -np.linalg.solve(stiffness, loads.T).T.astype(np.float32, order="C"),
         "near": near,
         "share": share,
         "bend": (bend @ _knots(coarse.knots, body.knots)).astype(np.float32),

@@ -41,12 +41,13 @@ class SecondOrder(NamedTuple):
     ----------
     free : (n, 3) array, m
         Stress-free positions of the face's nodes.
-    gather : (c, n) array
-        Displacements of the face's nodes -> those of the c nodes of a coarser face.
-    gradient : (9 e, 3 c) array, 1/m
-        Displacement gradients of e elements (component by component) that go with them.
-    spread : (3 c, 9 e) array, m per (stress over E)
-        Displacements of the unloaded coarser face under stresses in the elements.
+    gather : (n, c) array
+        Displacements of the face's nodes -> those of the c nodes of a coarser face; one row a node of the face.
+    gradient : (3 c, 9 e) array, 1/m
+        Displacement gradients of e elements (component by component) for unit displacement of each of the coarser
+        face's; one row a displacement.
+    spread : (9 e, 3 c) array, m per (stress over E)
+        Displacements of the unloaded coarser face for unit stresses in the elements; one row a stress.
     near, share : (n, 4) arrays
         Coarser nodes around a node of the face, and their weights.
     lame, shear : float
@@ -176,6 +177,7 @@ class Scratch(NamedTuple):
     unloaded: Array
     moved: Singles
     coarse: Singles
+    third: Singles
     gradient: Singles
 
 
@@ -225,9 +227,10 @@ def fresh_state(nodes: int, terms: int) -> FaceState:
 
 def scratch(nodes: int, terms: int, second: SecondOrder = SMALL_STRAIN) -> Scratch:
     """Return work space for `nodes` nodes and `terms` Prony terms."""
-    elements, coarse = second.gradient.shape
+    coarse, elements = second.gradient.shape
     return Scratch(
         np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 2)),
         np.zeros(nodes, dtype=np.int64), np.zeros(terms), np.zeros((nodes, 3)), np.zeros((3, nodes), dtype=np.float32),
-        np.zeros(coarse, dtype=np.float32), np.zeros(elements, dtype=np.float32),
+        np.zeros(coarse, dtype=np.float32), np.zeros(coarse // 3, dtype=np.float32),
+        np.zeros(elements, dtype=np.float32),
     )  # fmt: skip

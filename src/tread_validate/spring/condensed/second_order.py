@@ -21,6 +21,7 @@ import numpy as np
 
 from ...kernels import kernel
 from .inputs import FaceState, Pose, Scratch, SecondOrder, Singles
+from .products import combine
 
 LARGEST = 0.5
 """Norm of H beyond which P2 grows no more: there a second order says nothing."""
@@ -53,7 +54,7 @@ def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work
     dt = state.pace[1]
     _strain(pose, second, state, work)
     _stress(second, work.gradient)
-    _times(second.spread, work.gradient, work.coarse)
+    combine(second.spread, work.gradient, work.coarse)
     for i in range(state.shift.shape[0]):
         for c in range(3):
             moved = 0.0
@@ -96,30 +97,13 @@ def _due(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scr
 @kernel()
 def _strain(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) -> None:
     """Write the displacement gradients of the elements to `work.gradient`."""
-    for k in range(second.gather.shape[0]):
-        for c in range(3):
-            work.coarse[3 * k + c] = _dot(second.gather[k], work.moved[c])
-    _times(second.gradient, work.coarse, work.gradient)
+    for c in range(3):
+        combine(second.gather, work.moved[c], work.third)
+        for k in range(work.third.size):
+            work.coarse[3 * k + c] = work.third[k]
+    combine(second.gradient, work.coarse, work.gradient)
     if pose.bend.size > 0:
         work.gradient[:] += pose.bend
-
-
-@kernel(reorder=True)
-def _dot(a: Singles, b: Singles) -> np.float32:
-    total = np.float32(0.0)
-    for j in range(a.size):
-        total += a[j] * b[j]
-    return total
-
-
-@kernel(reorder=True)
-def _times(matrix: Singles, vector: Singles, out: Singles) -> None:
-    for i in range(out.size):
-        row = matrix[i]
-        total = np.float32(0.0)
-        for j in range(vector.size):
-            total += row[j] * vector[j]
-        out[i] = total
 
 
 @kernel(reorder=True)

@@ -36,6 +36,8 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
     first, last = n, 0
     q, target, relaxed = work.q, work.target, work.relaxed
     ahead = np.empty(3)
+    flat, whole = math.isinf(road.radius), dt * road.speed
+    turn_cosine, turn_sine = math.cos(whole / road.radius), math.sin(whole / road.radius)
     for i in range(n):
         before = state.code[i]
         work.before[i] = before
@@ -60,12 +62,18 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
             rest = 1.0 - part
         if before != FREE or rest > 0.0:
             first, last = min(first, i), i + 1
-        travel = rest * dt * road.speed
-        if math.isinf(road.radius):
+        travel = rest * whole
+        if flat:
             tx, ty, nx, ny = x + travel, 0.0, 0.0, 1.0
         else:
-            turn = math.atan2(x, y + road.radius) + travel / road.radius
-            nx, ny = math.sin(turn), math.cos(turn)
+            turned, across = turn_cosine, turn_sine
+            if rest == 0.0:
+                turned, across = 1.0, 0.0
+            elif rest < 1.0:
+                turned, across = math.cos(travel / road.radius), math.sin(travel / road.radius)
+            up = y + road.radius
+            far = 1.0 / math.sqrt(x * x + up * up)
+            nx, ny = far * (x * turned + up * across), far * (up * turned - x * across)
             tx, ty = road.radius * nx, road.radius * (ny - 1.0)
         # into the block's frame, less the unloaded place: the displacement that the road imposes
         gx, gy = tx - pose.x, ty - pose.y
@@ -254,4 +262,4 @@ def put(pose: Pose, state: FaceState) -> None:
 def _gap(x: float, y: float, road_radius: float) -> float:
     if math.isinf(road_radius):
         return y
-    return math.hypot(x, y + road_radius) - road_radius
+    return math.sqrt(x * x + (y + road_radius) * (y + road_radius)) - road_radius
