@@ -19,6 +19,10 @@ WORST_IMPACT = 0.02
 WORST_UNSTEADINESS = 0.005
 """Largest scatter of the tangential force from sample to sample, of the peak normal force: smooth passes of the
 study's kind stay below 0.0025, sliding that sticks and slips lies above 0.0065."""
+WORST_ALTERNATION = 0.005
+"""Largest share of the normal impulse on nodes that were in another state a sample before and are in another one a
+sample later: passes that roll stay below 0.0001, a face that shivers at constant friction has T/N short of the
+coefficient by more than 0.5 % beyond."""
 
 
 def energy_balance(energies: pd.DataFrame) -> dict[str, float]:
@@ -56,8 +60,35 @@ def unsteadiness(normal: Floats, tangential: Floats) -> float:
     return float(np.sqrt((np.diff(tangential, 2) ** 2).mean() / 6.0) / peak)
 
 
-def reference_quality(balance: dict[str, float], scatter: float) -> dict[str, Any]:
-    """Return whether a run can be a reference (`usable`), and why not (`reasons`)."""
+def alternation(states: NDArray[np.int8], pressures: Floats) -> float:
+    """Return the share of the normal load that rests on nodes between two changes of stick and slip.
+
+    A node counts at a sample where it touches, as in the samples before and after, and sticks while it slips in both of
+    them or slips while it sticks in both. In a pass that rolls a node changes a few times, whatever the sampling.
+
+    Parameters
+    ----------
+    states : (samples, nodes)
+        0 open, 1 sticks, 2 slips.
+    pressures : (samples, nodes)
+    """
+    load = float(pressures.sum())
+    if len(states) < 3 or load == 0.0:
+        return 0.0
+    changes = (states[1:] != states[:-1]) & (states[1:] > 0) & (states[:-1] > 0)
+    return float((pressures[1:-1] * (changes[1:] & changes[:-1])).sum()) / load
+
+
+def reference_quality(balance: dict[str, float], scatter: float, chatter: float) -> dict[str, Any]:
+    """Return whether a run can be a reference (`usable`), and why not (`reasons`).
+
+    Parameters
+    ----------
+    balance : dict
+        Of `energy_balance`.
+    scatter, chatter : float
+        Of `unsteadiness` and `alternation`.
+    """
     reasons = [
         f"{what} {100.0 * value:.2g} % of the {of}, at most {100.0 * limit:g} %"
         for what, value, of, limit in (
@@ -65,6 +96,7 @@ def reference_quality(balance: dict[str, float], scatter: float) -> dict[str, An
             ("artificial energy is", balance["artificial_share"], "internal energy", WORST_ARTIFICIAL),
             ("impacts took", balance["impact_share"], "internal energy or external work", WORST_IMPACT),
             ("stick and slip alternate: T scatters by", scatter, "peak normal force", WORST_UNSTEADINESS),
+            ("stick and slip alternate under", chatter, "normal impulse", WORST_ALTERNATION),
         )
         if not value <= limit
     ]

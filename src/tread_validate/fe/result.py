@@ -19,7 +19,7 @@ from ..yaml_text import write_yaml
 from .axes import Axes, found_axes
 from .energy import COLUMNS as ENERGY_COLUMNS
 from .explicit import Simulation
-from .quality import energy_balance, reference_quality, unsteadiness
+from .quality import alternation, energy_balance, reference_quality, unsteadiness
 
 JOULE = 1.0 / DECK_LENGTH  # N mm -> N m
 LENGTH = 1.0 / DECK_LENGTH
@@ -104,14 +104,16 @@ def collect(
     )
     balance = energy_balance(energies)
     scatter = unsteadiness(history.normal_force, history.tangential_force)
+    chatter = alternation(np.array(s.slip_state), np.array(s.pressure, dtype=np.float64))
     pressure = max((float(sample.max()) for sample in s.pressure if sample.size), default=0.0)
     told = {
         **record,
         "axes": {"normal": axes.normal, "travel": axes.travel},
         "energy_balance": balance,
         "unsteadiness": scatter,
+        "alternation": chatter,
         "largest": {"log_strain": simulation.strain, "contact_pressure_Pa": pressure / DECK_STRESS},
-        "reference_quality": reference_quality(balance, scatter),
+        "reference_quality": reference_quality(balance, scatter, chatter),
     }
     return FeResult(history, energies, reactions, _nodes(simulation), contact, _face(simulation), told)
 

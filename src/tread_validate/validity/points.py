@@ -70,7 +70,7 @@ def fe_point(case: Case) -> dict[str, Any]:
     -------
     dict
         ``bound`` (case, meshes, code, decks), ``fe_<n>`` (forces), ``residual_<n>`` and ``artificial_<n>`` (energies),
-        ``unsteadiness_<n>``, ``seconds``; or ``refused``: why.
+        ``unsteadiness_<n>``, ``alternation_<n>``, ``seconds``; or ``refused``: why.
     """
     begin = time.monotonic()
     found: dict[str, Any] = {}
@@ -117,6 +117,7 @@ def _fe_run(case: Case, parts: int) -> tuple[dict[str, Any], str]:
         f"residual_{parts}": float(balance["balance_error"]),
         f"artificial_{parts}": float(balance["artificial_share"]),
         f"unsteadiness_{parts}": float(result.record["unsteadiness"]),
+        f"alternation_{parts}": float(result.record["alternation"]),
     }
     return found, str(result.record["deck_digest"])
 

@@ -8,7 +8,7 @@ import pytest
 
 from tread_validate.errors import InputError
 from tread_validate.fe.axes import Axes, found_axes
-from tread_validate.fe.quality import energy_balance, reference_quality, unsteadiness
+from tread_validate.fe.quality import alternation, energy_balance, reference_quality, unsteadiness
 
 
 def energies(**columns: float) -> pd.DataFrame:
@@ -25,20 +25,23 @@ def test_balance_is_of_the_larger_of_internal_energy_and_external_work() -> None
             "impact_share": 0.01,
         }
     )  # fmt: skip
-    assert reference_quality(found, 0.0) == {"usable": True, "reasons": []}
+    assert reference_quality(found, 0.0, 0.0) == {"usable": True, "reasons": []}
 
 
 @pytest.mark.parametrize(
-    ("columns", "scatter", "word"),
+    ("columns", "scatter", "chatter", "word"),
     [
-        ({"total": 0.11}, 0.0, "unaccounted"),
-        ({"artificial": 0.05}, 0.0, "artificial"),
-        ({"contact_impact": 0.3}, 0.0, "impacts"),
-        ({}, 0.006, "alternate"),
+        ({"total": 0.11}, 0.0, 0.0, "unaccounted"),
+        ({"artificial": 0.05}, 0.0, 0.0, "artificial"),
+        ({"contact_impact": 0.3}, 0.0, 0.0, "impacts"),
+        ({}, 0.006, 0.0, "T scatters"),
+        ({}, 0.0, 0.006, "stick and slip alternate"),
     ],
 )
-def test_run_beyond_a_limit_is_no_reference_and_says_why(columns: dict[str, float], scatter: float, word: str) -> None:
-    found = reference_quality(energy_balance(energies(**columns)), scatter)
+def test_run_beyond_a_limit_is_no_reference_and_says_why(
+    columns: dict[str, float], scatter: float, chatter: float, word: str
+) -> None:
+    found = reference_quality(energy_balance(energies(**columns)), scatter, chatter)
     assert not found["usable"]
     assert len(found["reasons"]) == 1
     assert word in found["reasons"][0]
@@ -50,6 +53,16 @@ def test_scatter_of_white_noise_is_its_standard_deviation_and_of_a_straight_line
     normal = np.full(20_000, 100.0)
     assert unsteadiness(normal, rng.standard_normal(20_000)) == pytest.approx(0.01, rel=0.03)
     assert unsteadiness(normal, np.linspace(0.0, 50.0, 20_000)) < 1e-12
+
+
+def test_a_node_that_changes_and_stays_does_not_alternate_and_one_that_turns_back_at_once_does() -> None:
+    """Four nodes under one pressure: one slips and stays so, one comes down slipping and goes, one chatters on each of
+    the eight inner samples, one rests: 8 of the 33 loads."""
+    states = np.array([[1] * 4 + [2] * 6, [0] * 4 + [2] * 3 + [0] * 3, [1, 2] * 5, [1] * 10], dtype=np.int8).T
+    pressures = (states > 0).astype(np.float64)
+    assert alternation(states, pressures) == pytest.approx(8.0 / 33.0)
+    assert alternation(states[:2], pressures[:2]) == 0.0
+    assert alternation(states, 0.0 * pressures) == 0.0
 
 
 def test_normal_is_the_axis_nearest_to_the_forces_of_the_road() -> None:

@@ -157,10 +157,27 @@ def test_deck_of_a_track_is_clean_and_the_engine_slides_at_mu_too(case, paper_st
         case = replace(case, compound=rubber.model_copy(update={"fit": rubber.fit.model_copy(update=WIDE)}))
     deck.write(case, tmp_path)
     assert lint(tmp_path / f"{case.case_id}.inp") == []
-    history = run_deck(tmp_path / f"{case.case_id}.inp", tmp_path / "vfric.f").history
+    result = run_deck(tmp_path / f"{case.case_id}.inp", tmp_path / "vfric.f")
+    assert result.record["reference_quality"]["usable"]
+    history = result.history
     held = (history.time > 8e-3) & (history.time < 23e-3)
     normal = history.normal_force[held].mean()
     assert history.tangential_force[held].mean() == pytest.approx(-mu * normal, rel=5e-3)
     face = run(case, "condensed")
     middle = np.interp(0.015, history.time, history.normal_force)
     assert middle == pytest.approx(np.interp(0.015, face.time, face.normal_force), rel=0.03)
+
+
+@pytest.mark.parametrize(("mu", "short"), [(0.3, 0.005), (0.8, 0.05)])
+def test_an_elastic_face_that_shivers_on_a_track_is_no_reference_and_says_so(case, tmp_path, mu, short):
+    """Hardly damped, the mean of T/N over the hold falls short of mu by more than `short`; the run names the cause."""
+    law = case.friction.model_copy(update={"kinetic_coefficient": mu, "static_coefficient": mu})
+    case = replace(case, friction=law)
+    deck.write(case, tmp_path)
+    result = run_deck(tmp_path / f"{case.case_id}.inp", tmp_path / "vfric.f")
+    held = (result.history.time > 8e-3) & (result.history.time < 23e-3)
+    ratio = -result.history.tangential_force[held].mean() / result.history.normal_force[held].mean()
+    assert ratio < (1.0 - short) * mu
+    quality = result.record["reference_quality"]
+    assert not quality["usable"]
+    assert any("stick and slip alternate under" in reason for reason in quality["reasons"])

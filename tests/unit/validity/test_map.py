@@ -111,14 +111,23 @@ def test_a_refused_point_is_none(cases):
 
 
 @pytest.mark.parametrize(
-    "fault", [{"residual_6": 0.02}, {"artificial_6": 0.03}, {"unsteadiness_6": 0.01}, {"fe_6": {"normal": 90.0}}, {}]
+    "fault",
+    [
+        {"residual_6": 0.02},
+        {"artificial_6": 0.03},
+        {"unsteadiness_6": 0.01},
+        {"alternation_6": 0.01},
+        {"fe_6": {"normal": 90.0}},
+        {},
+    ],
 )
 def test_an_fe_run_that_is_no_reference_makes_no_point(fault):
-    """Energy residual above 1 %, hourglass energy above 2 %, T that scatters, or 5 % from the limit of its meshes."""
+    """Energy residual above 1 %, hourglass energy above 2 %, T scatters, nodes chatter, 5 % from the meshes' limit."""
     data = {
         "residual_6": 0.0,
         "artificial_6": 0.001,
         "unsteadiness_6": 0.001,
+        "alternation_6": 0.0,
         "fe_6": {"normal": 99.0},
         "limit": {"normal": 100.0},
     }
