@@ -61,7 +61,7 @@ def levels(study):
                 forget()
                 again = best_of(1, lambda case=case, level=level: run(case, level))
                 search = ""
-                if not case.is_rig:
+                if case.path.family != "rig":
                     search = f"{1e3 * best_of(2, lambda case=case, level=level: free_rolling_creep(case, level)):.1f}"
             del os.environ["TREAD_VALIDATE_CACHE"]
             said = (
@@ -78,7 +78,9 @@ def stepping(study):
         block = tv.TreadBlock(case, model)
         middle = 0.5 * path.columns.extent
         at, points = path.at(middle, time_), path.at(middle - block.mount_points, time_[:, None])
-        mounts = [None if case.is_rig else np.column_stack(xy) for xy in zip(points.x, points.y, strict=True)]
+        mounts = [
+            None if case.path.family == "rig" else np.column_stack(xy) for xy in zip(points.x, points.y, strict=True)
+        ]
 
         def ride(block=block, at=at, time_=time_, path=path, mounts=mounts):
             block.start((at.x[0], at.y[0]), at.theta[0], mounts[0])

@@ -175,7 +175,7 @@ def _peaks(cases: tuple[Case, ...], assumed: dict[str, str]) -> pd.DataFrame:
                 {
                     "source": source,
                     "case_id": case.case_id,
-                    "rig": case.is_rig,
+                    "rig": case.path.family == "rig",
                     "shape": case.block.shape,
                     "path": case.path_name,
                     "block": case.block_name,

@@ -86,6 +86,6 @@ def test_shipped_laboratory_study_runs_from_raw_files(root: Path) -> None:
     cases = load_study(root / "config" / "laboratory.yaml").cases()
     peaks = {case.case_id: run(case).normal_force.max() for case in cases if not case.free_rolling}
     assert len(peaks) == 5
-    rig = {c.temperature: peaks[c.case_id] for c in cases if c.is_rig and c.speed_rpm == 300.0}
+    rig = {c.temperature: peaks[c.case_id] for c in cases if c.path.family == "rig" and c.speed_rpm == 300.0}
     assert rig[22.0] > rig[45.0] > 10.0
     assert all(any("synthetic" in mark for mark in case.assumed()) for case in cases)

@@ -99,7 +99,7 @@ def stuck_element(case: Case) -> tuple[Callable[[float], complex], Callable[[flo
     def lengths(bx: complex, by: complex, theta: complex) -> tuple[complex, complex]:
         return HEIGHT - (bx * np.sin(theta) - by * np.cos(theta)), bx * np.cos(theta) + by * np.sin(theta)
 
-    both = rig if case.is_rig else belt
+    both = rig if case.path.family == "rig" else belt
     return (lambda t: both(t)[0]), (lambda t: both(t)[1])
 
 

@@ -39,7 +39,7 @@ def test_a_prescribed_path_gives_the_forces_of_the_pass(name, study_cases):
     at, knots = path.at(middle, face.time), path.at(middle - block.mount_points, face.time[:, None])
     forces = np.zeros((face.time.size, 2))
     for k in range(face.time.size):
-        mount = None if case.is_rig else np.column_stack([knots.x[k], knots.y[k]])
+        mount = None if case.path.family == "rig" else np.column_stack([knots.x[k], knots.y[k]])
         if k == 0:
             block.start((at.x[0], at.y[0]), at.theta[0], mount)
             continue

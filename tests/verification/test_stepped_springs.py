@@ -23,7 +23,7 @@ def stepped(case, ready, steps, parts=1):
     speed = path.speed * (1.0 + case.creep_ratio)
     forces = np.zeros((time.size, 2))
     for k in range(time.size):
-        mount = None if case.is_rig else np.column_stack([points.x[k], points.y[k], points.theta[k]])
+        mount = None if case.path.family == "rig" else np.column_stack([points.x[k], points.y[k], points.theta[k]])
         if k == 0:
             block.start((at.x[0], at.y[0]), at.theta[0], mount)
         else:

@@ -85,6 +85,10 @@ def command(
 
 def _gives_coefficients(cases: Sequence[Case]) -> bool:
     """Whether a_v and a_theta follow from the rig runs that the compatibility of both is asked of: a full grid."""
-    rig = [case for case in cases if case.is_rig and case.block.shape == "rectangle" and case.interference < 0.25 * MM]
+    rig = [
+        case
+        for case in cases
+        if case.path.gives_coefficients and case.block.shape == "rectangle" and case.interference < 0.25 * MM
+    ]
     levels = [len({getattr(case, key) for case in rig}) for key in ("temperature", "speed", "interference")]
     return min(levels[:2]) > 1 and len(rig) == math.prod(levels)

@@ -71,7 +71,7 @@ def command(
 
     loaded = load_study(study)
     case = loaded.case(case_id)
-    if case.creep_ratio is None and case.is_belt:
+    if case.creep_ratio is None and case.path.on_tyre:
         (case,) = spring.resolve_creep((case,))
     case = belt_case(case)
     sequence = load_pitch_sequence(pitch)

@@ -16,7 +16,7 @@ TABLE, RECORD = "sobol.csv", "record.yaml"
 
 
 def input_spreads(hierarchy_dir: Path, cases: Sequence[Case]) -> dict[str, dict[str, float]]:
-    """Return relative standard deviations by quantity, for ``rig`` and ``belt``; empty where they are not known.
+    """Return relative standard deviations by quantity, by family of paths; empty where they are not known.
 
     `hierarchy_dir` holds the study's sensitivity study.
 
@@ -40,6 +40,5 @@ def input_spreads(hierarchy_dir: Path, cases: Sequence[Case]) -> dict[str, dict[
         except (KeyError, ValueError):
             raise InputError(f"{table}:{line}", "no mean and sd", "numbers in mean and sd") from None
         if mean != 0.0:
-            kind = "rig" if case.is_rig else "belt"
-            found.setdefault(kind, {})[row["quantity"].replace(" ", "_")] = sd / abs(mean)
+            found.setdefault(case.path.family, {})[row["quantity"].replace(" ", "_")] = sd / abs(mean)
     return found

@@ -61,7 +61,7 @@ def assumed_inputs(cases: Sequence[Case]) -> list[AssumedRow]:
                 source, count = found.get((name, item.origin), (item.source, 0))
                 found[name, item.origin] = (source, count + 1)
     rows = [AssumedRow(name, origin, source, count) for (name, origin), (source, count) in found.items()]
-    rig = sum(case.is_rig for case in cases)
+    rig = sum(case.path.gives_coefficients for case in cases)
     if rig:
         zero = f"{REFERENCE_TEMPERATURE:g} degC; the paper does not print it"
         speeds = "the paper prints the lowest, the highest and one other speed of the rig"

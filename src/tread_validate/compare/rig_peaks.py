@@ -120,7 +120,7 @@ def rig_rows(
     rows: list[MetricRow] = []
     for source in sources:
         for case in cases:
-            if not case.is_rig:
+            if not case.path.gives_coefficients:
                 continue
             peak, run = peaks.get(case.case_id), runs[source, case.case_id]
             assumed = "; ".join([*case.assumed(), *([peak.assumed] if peak is not None and peak.assumed else [])])

@@ -11,6 +11,7 @@ from ..errors import InputError, one_line
 from ..files import read_text
 from ..reference import load_published
 from ..study import Case, LoadedStudy
+from ..study.typical import by_family
 from ..units import IN_MM
 from .claims.claim import Claim, Evidence
 from .claims.published import published_claims
@@ -211,12 +212,11 @@ def _ensembles(cases: Sequence[Case], rows: Sequence[MetricRow], exclude: Sequen
 
 def _groups(cases: Sequence[Case], exclude: Sequence[float]) -> dict[str, set[str]]:
     """Return the groups of cases that are summed up; `published` is the paper's: the rig without 0.3 mm."""
-    rig = [case for case in cases if case.is_rig]
+    families = by_family(cases)
+    rig = [case for case in cases if case.path.gives_coefficients]
     groups = {
         "all": {case.case_id for case in cases},
-        "rig": {case.case_id for case in rig},
-        "belt": {case.case_id for case in cases if case.is_belt},
-        "track": {case.case_id for case in cases if case.path.family == "track"},
+        **{family: {case.case_id for case in members} for family, members in families.items()},
         "published": {
             case.case_id for case in rig if not any(abs(IN_MM * case.interference - left) < 1e-9 for left in exclude)
         },
@@ -246,8 +246,8 @@ def _sensitivity(
 ) -> tuple[Sensitivity, ...]:
     """Measure the scores' sensitivity on the last case that has both a reference and a prediction, per kind of path."""
     rows: list[Sensitivity] = []
-    for family in ("belt", "rig", "track"):
-        for case in reversed([case for case in cases if case.path.family == family]):
+    for _, members in sorted(by_family(cases).items()):
+        for case in reversed(members):
             reference = runs[references[0], case.case_id].history
             predicted = runs[sources[0], case.case_id].history
             if reference is not None and predicted is not None:

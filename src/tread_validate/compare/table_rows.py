@@ -27,7 +27,7 @@ def peak_row(case: Case, run: SourceRun) -> PeakRow:
     return PeakRow(
         source=run.source,
         case_id=case.case_id,
-        rig=case.is_rig,
+        rig=case.path.gives_coefficients,
         shape=case.block.shape,
         path=case.path_name,
         block=case.block_name,

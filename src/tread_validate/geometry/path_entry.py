@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from pathlib import Path as FilePath
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Literal, Protocol, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,12 @@ from ..errors import InputError
 from ..fields import Sourced
 from ..units import IN_MM
 from .path import Path
+from .trace import LevelledTrace
 from .tread_block import Block
 
 Array = NDArray[np.float64]
 Family = Literal["rig", "belt", "track"]
+FAMILIES: tuple[Family, ...] = get_args(Family)
 
 
 class Conditions(Protocol):
@@ -80,13 +82,29 @@ class Sketch:
     curves: dict[str, tuple[Array, Array]]
 
 
+@dataclass(frozen=True)
+class Ridge:
+    """A smoothed ridge of a measured belt: place and height, (n,) arrays in m; whether it is the one that is used."""
+
+    name: str
+    x: Array
+    height: Array
+    used: bool
+
+
 class PathEntry(Sourced, ABC):
     """A path as a study gives it.
 
     Attributes
     ----------
     family : str
-        ``rig``, ``belt`` or ``track``: what the reports group by and which measurements there can be.
+        ``rig``, ``belt`` or ``track``: what tables and reports group by.
+    on_tyre : bool
+        Whether the block is one of a tyre's, whose passes add up to the tyre's forces.
+    gives_coefficients : bool
+        Whether peak forces over speeds and temperatures are regressed on it (a_v and a_theta), and measured on it.
+    pulls : bool
+        Whether the road pulls on the block by more than the models' own error of the tangential force.
     rolls : bool
         Whether the block moves with the road, so that a creep ratio has a meaning.
     mount_is_rigid : bool
@@ -98,6 +116,9 @@ class PathEntry(Sourced, ABC):
     """
 
     family: ClassVar[Family]
+    on_tyre: ClassVar[bool] = False
+    gives_coefficients: ClassVar[bool] = False
+    pulls: ClassVar[bool] = True
     rolls: ClassVar[bool] = True
     mount_is_rigid: ClassVar[bool] = False
     is_measured: ClassVar[bool] = False
@@ -123,6 +144,30 @@ class PathEntry(Sourced, ABC):
     def tallest_block(self) -> tuple[float, str] | None:
         """Return the height in mm that a block must stay under, and in words what sets it; None without a limit."""
         return None
+
+    def varies(self, *keys: str) -> bool:
+        """Whether all these are keys of the path that the paper does not fix."""
+        return set(keys) <= {item.key for item in self.uncertain}
+
+    def value(self, key: str) -> float:
+        """Return the value of a key of the path, in the key's unit."""
+        return float(getattr(self, key))
+
+    def wheel_radii(self) -> tuple[float, float] | None:
+        """Return the radii in mm of the wheel with the block and of that which is the road; None without wheels."""
+        return None
+
+    def belt_file(self, root: FilePath) -> FilePath | None:
+        """Return the belt file that a measured path comes from; None where it comes from raw heights, or none."""
+        return None
+
+    def ridges(self, root: FilePath) -> tuple[Ridge, ...]:
+        """Return the smoothed ridges that a measured path comes from; none of any other."""
+        return ()
+
+    def raw_ridges(self, root: FilePath) -> tuple[LevelledTrace, ...]:
+        """Return the levelled heights that a measured path comes from, where its file holds such; none else."""
+        return ()
 
     def sketch(self, path: Path) -> Sketch:
         """Return the mount's line and the road, in mm."""

@@ -1,19 +1,13 @@
-"""Belt files: raw ridge heights (CSV) in, levelled traces (YAML) out and in."""
+"""Writing belt files: levelled traces in YAML, raw ridge heights in CSV."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import InputError
 from ..units import IN_UM, MM
-from ..yaml_text import read_yaml
 from .trace import LevelledTrace, RidgeHeights
-
-Array = NDArray[np.float64]
 
 
 def belt_yaml(traces: tuple[LevelledTrace, ...], origin: str, source: str, provenance: Mapping[str, str]) -> str:
@@ -43,30 +37,6 @@ def belt_yaml(traces: tuple[LevelledTrace, ...], origin: str, source: str, prove
         height = ", ".join(f"{value / MM:.7f}".rstrip("0").rstrip(".") for value in trace.height + 0.0)
         lines += [f"  {trace.name}:", f"    x_mm: [{x}]", f"    height_mm: [{height}]"]
     return "\n".join(lines) + "\n"
-
-
-def read_belt(path: Path | str) -> dict[str, tuple[Array, Array]]:
-    """Return x and height in m of every trace of a belt file: ``{name: (x, height)}``, each (n,)."""
-    data = read_yaml(path)
-    if not isinstance(data, dict) or not isinstance(data.get("traces"), dict) or not data["traces"]:
-        raise InputError(f"{path}: traces", "nothing", "a mapping of trace names to x_mm and height_mm")
-    found: dict[str, tuple[Array, Array]] = {}
-    for name, trace in data["traces"].items():
-        where = f"{path}: traces.{name}"
-        if not isinstance(trace, dict) or not {"x_mm", "height_mm"} <= set(trace):
-            raise InputError(where, "keys missing", "x_mm and height_mm")
-        try:
-            x, height = (np.array(trace[key], dtype=np.float64) * MM for key in ("x_mm", "height_mm"))
-        except (TypeError, ValueError, OverflowError):
-            raise InputError(where, "values that are not numbers", "lists of numbers") from None
-        if x.ndim != 1 or x.shape != height.shape or x.size < 10:
-            raise InputError(
-                where, f"{x.size} positions and {height.size} heights", "two lists of one length, 10 or more"
-            )
-        if not np.all(np.isfinite(x) & np.isfinite(height)) or not np.all(np.diff(x) > 0):
-            raise InputError(where, "positions out of order or values that are not finite", "increasing x_mm")
-        found[str(name)] = (x, height)
-    return found
 
 
 def _quoted(text: str) -> str:

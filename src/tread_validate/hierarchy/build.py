@@ -12,7 +12,7 @@ from ..compare.runs import fe_runs
 from ..compare.tables import TableRow, write_rows
 from ..errors import InputError
 from ..spring import resolve_creep
-from ..study import Case, LoadedStudy, SimplifiedBelt
+from ..study import Case, LoadedStudy
 from ..study.typical import path_and_block, path_kind, typical_cases
 from . import compatibility, compounds, effects, fe_meshes, figures, pareto, published, sensitivity
 from .own_models import own_rows
@@ -90,7 +90,7 @@ def build(
     if "published" in parts:
         say("published figures")
         put(PublishedFigure, published.published_rows(cases, references, engine, pareto.LEVELS))
-        belts = [case for case in chosen if isinstance(case.path, SimplifiedBelt)]
+        belts = [case for case in chosen if case.path.varies(*published.VARIED)]
         levels = ("paper", "shape_factor", "condensed_coarse")
         put(CombinationRow,
             [row for case in belts for row in published.combination_rows(case, levels)])  # fmt: skip

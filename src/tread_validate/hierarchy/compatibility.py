@@ -31,7 +31,7 @@ def compatibility_rows(cases: Sequence[Case], seed: int = 2010) -> list[dict[str
 
     `cases` are a study's; the rectangular rig runs among them are used. The rows' columns are those of `Compatibility`.
     """
-    rig = [case for case in cases if case.is_rig and case.block.shape == "rectangle"]
+    rig = [case for case in cases if case.path.gives_coefficients and case.block.shape == "rectangle"]
     if not rig:
         return []
     compound = rig[0].compound

@@ -140,7 +140,7 @@ def _effects(case: Case) -> list[tuple[str, str, str, Change]]:
         ("poisson's ratio", "condensed, 0.47", "condensed, 0.49",
          lambda: (cached(), face_forces(_with_poisson(case, 0.49), base))),
     ]  # fmt: skip
-    if case.is_rig:
+    if case.path.varies("big_wheel_diameter_mm"):
         found.append(
             ("big wheel's diameter", "condensed, 0.6 m", "condensed, 1.6 m",
              lambda: (cached(), face_forces(_big_wheel(case, 1600.0), base)))

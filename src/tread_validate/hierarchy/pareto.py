@@ -21,8 +21,8 @@ from .tables import Level, LevelError
 LEVELS = ("paper", "shape_factor_theory", "shape_factor", "condensed_coarse", "condensed")
 GROUPS: tuple[tuple[str, Callable[[Case], bool]], ...] = (
     ("all", lambda case: True),
-    ("rig", lambda case: case.is_rig),
-    ("belt", lambda case: case.is_belt),
+    ("rig", lambda case: case.path.gives_coefficients),
+    ("belt", lambda case: case.path.on_tyre),
 )
 PEAKS = ("peak_positive_tangential_force", "peak_negative_tangential_force")
 

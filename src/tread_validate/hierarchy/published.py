@@ -14,7 +14,7 @@ from ..compare import Scalars, scalars
 from ..compare.runs import Runs
 from ..errors import EngineError, InputError
 from ..spring import free_rolling_creep, run
-from ..study import Case, SimplifiedBelt
+from ..study import Case
 from ..units import IN_MM, MM
 from .tables import CombinationRow, PublishedFigure
 
@@ -22,6 +22,7 @@ Array = NDArray[np.float64]
 
 NORMAL, TANGENTIAL, CREEP = 200.0, 80.0, 0.003
 """N, N and 1: N ~ 200 N, |T|max ~ 80 N, creep 0.3 % without net tangential impulse (section 5 of the paper)."""
+VARIED = ("edge_radius_mm", "patch_length_mm")
 TOLERANCE = 0.10
 """The paper prints one or two figures: a value within this share of it is counted as met."""
 
@@ -32,7 +33,7 @@ def published_rows(cases: Sequence[Case], references: Runs, engine: str, levels:
     Simplified profile, as the paper's spring model; the creep ratio of the force figures is the published 0.3 %. The
     rows' columns are those of `PublishedFigure`.
     """
-    belt = [case for case in cases if isinstance(case.path, SimplifiedBelt)]
+    belt = [case for case in cases if case.path.varies(*VARIED)]
     at_published = next((case for case in belt if case.creep_ratio == CREEP), None)
     if at_published is None:
         return []
@@ -110,8 +111,7 @@ def combination_rows(case: Case, levels: Sequence[str]) -> list[dict[str, Any]]:
 
     `case` is a belt case on the simplified profile. The rows' columns are those of `CombinationRow`.
     """
-    assert isinstance(case.path, SimplifiedBelt)
-    published = Combination(MM * case.path.edge_radius_mm, MM * case.path.patch_length_mm, 1.0)
+    published = Combination(MM * case.path.value(VARIED[0]), MM * case.path.value(VARIED[1]), 1.0)
     rows = []
     for level in levels:
         at_start = _outcome(case, level, published)

@@ -155,7 +155,7 @@ def sobol_rows(case: Case, samples: int = 256, with_creep: bool = True, seed: in
     }
     inputs = sampler.sample(problem, samples, calc_second_order=False, seed=seed)
     # on the rig the springs have hardly any tangential force: what they have is no finding
-    quantities = FORCES[:1] if case.is_rig else (*FORCES, CREEP) if with_creep else FORCES
+    quantities = FORCES[:1] if not case.path.pulls else (*FORCES, CREEP) if with_creep else FORCES
     outputs = evaluate(case, factors, inputs, CREEP in quantities)
     rows = []
     for column, quantity in enumerate(quantities):

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from ..geometry.trace import level
-from ..geometry.trace_import import read_ridges
 from ..material.compound import compound_route
 from ..material.worth import worths
-from ..study import LoadedStudy, MeasuredBelt
+from ..study import LoadedStudy
 from .content import Cell, Column, Item, Paragraph, Row, Table
 from .figures import Drawings, figure_items
 from .figures import route as drawings
@@ -41,14 +39,14 @@ def route_items(study: LoadedStudy, draw: Drawings) -> tuple[Item, ...]:
             Table(f"quality-{name}", f"Quality of the Prony fit, {name}", columns, rows, with_marks=True, folded=True)
         )
     for name, path in study.model.paths.items():
-        if not isinstance(path, MeasuredBelt) or not path.file.lower().endswith(".csv"):
+        traces = path.raw_ridges(study.root)
+        if not traces:
             continue
         marks = draw.input_marks(f"path {name}")
-        traces = level(read_ridges(study.root / path.file))
-        used = next(trace for trace in traces if trace.name == path.trace)
+        (used,) = (ridge.name for ridge in path.ridges(study.root) if ridge.used)
         drawn = (
             drawings.ridges(draw.folder, name, traces, marks),
-            drawings.ridge_curvature(draw.folder, name, used, marks),
+            drawings.ridge_curvature(draw.folder, name, next(trace for trace in traces if trace.name == used), marks),
         )
         found += figure_items(drawn)
     return tuple(found)

@@ -16,7 +16,7 @@ SAME_LENGTH = 1e-6  # m
 
 def belt_case(case: Case) -> Case:
     """Return the case, which must be a belt case with a known creep ratio."""
-    if not case.is_belt:
+    if not case.path.on_tyre:
         raise InputError(f"case {case.case_id}: path", case.path_name, "a belt: nothing else is a tyre")
     if case.creep_ratio is None:
         raise InputError(f"case {case.case_id}: creep_ratio", "none", "a resolved free-rolling case")

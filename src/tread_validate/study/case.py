@@ -64,16 +64,6 @@ class Case:
     speed_rpm: Annotated[float | None, Label("the speed in other words")] = None
 
     @property
-    def is_rig(self) -> bool:
-        """Whether the block rolls on the two-wheel rig."""
-        return self.path.family == "rig"
-
-    @property
-    def is_belt(self) -> bool:
-        """Whether the block rolls on a tyre's belt."""
-        return self.path.family == "belt"
-
-    @property
     def length(self) -> float:
         """Block length in the rolling direction, m."""
         return self.block.length_mm * MM

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Sequence
 
+from ..geometry import FAMILIES
 from .case import Case
+
+
+def by_family(cases: Iterable[Case]) -> dict[str, tuple[Case, ...]]:
+    """Return the cases of every family of paths, in their order."""
+    known = tuple(cases)
+    return {family: tuple(case for case in known if case.path.family == family) for family in FAMILIES}
 
 
 def path_and_block(case: Case) -> tuple[str, str]:

@@ -16,6 +16,11 @@ from ..units import MM
 Array = NDArray[np.float64]
 
 
+def kind_of(case: Case) -> str:
+    """Return within what the groups are compared: the family of the path and how the block sits on its mount."""
+    return f"{case.path.family}, {case.block.mounting}"
+
+
 @dataclass(frozen=True)
 class Groups:
     """Groups of one case, dimensionless.

@@ -17,7 +17,7 @@ from ..spring import run
 from ..spring.variants import code_digest as model_digest
 from ..study import Case
 from ..units import IN_MM, IN_US
-from .groups import groups_of
+from .groups import groups_of, kind_of
 
 MODELS = ("paper", "shape_factor", "condensed_coarse", "condensed")
 QUANTITIES = ("normal", "impulse", "positive", "negative")
@@ -139,8 +139,7 @@ def model_point(case: Case, model: str) -> dict[str, Any]:
 
 def whole_point(case: Case, fe: Mapping[str, Any], models: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """Put both parts of a point together; it says why where either was refused."""
-    kind = f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
-    point = {**fe, "case_id": case.case_id, "kind": kind, "groups": asdict(groups_of(case))}
+    point = {**fe, "case_id": case.case_id, "kind": kind_of(case), "groups": asdict(groups_of(case))}
     refused = [f"{model}: {found['refused']}" for model, found in models.items() if "refused" in found]
     if "refused" in fe:
         return point

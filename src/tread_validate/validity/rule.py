@@ -10,7 +10,7 @@ from ..friction import Coulomb
 from ..history import History
 from ..study import Case
 from .calibration import NEAREST, factors, fitted, neighbours, ranges
-from .groups import NAMES, Groups, coordinates, groups_of
+from .groups import NAMES, Groups, coordinates, groups_of, kind_of
 from .made_by import made_by_other_code
 from .table import ERRORS, Point, committed
 
@@ -79,7 +79,7 @@ class Rule:
 
     def expect(self, case: Case, model: str, stale: str = "") -> Expectation:
         """Return what error to expect of a model's prediction of a case whose creep ratio is known."""
-        kind = f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
+        kind = kind_of(case)
         known = [point for point in self.basis if point.kind == kind and model in point.errors]
         outside = ("sipes",) if case.block.sipes else ()
         if len(known) <= NEAREST:

@@ -12,7 +12,7 @@ import yaml
 from tread_validate.cli.app import run
 from tread_validate.compare.regression.peaks_file import read_peaks
 from tread_validate.friction import read_friction
-from tread_validate.geometry.trace_file import read_belt
+from tread_validate.geometry.belt_file import read_belt
 from tread_validate.material import read_material
 from tread_validate.reference.rig import load_rig
 from tread_validate.reference.rig_synthetic import record_csv, synthetic_record

@@ -72,9 +72,9 @@ def test_belt_forces_and_pressures(evidence: Evidence) -> None:
 def test_the_reversal_at_the_exit_has_to_be_in_every_belt_run(evidence: Evidence) -> None:
     """T < 0 in the second half and > 0 in the last twentieth: 1; one run without it: 0."""
     assert value(evidence, "tangential_reversal_at_exit") == 0.0
-    everywhere = changed(evidence, lambda case: not case.is_rig, late=8.0)
+    everywhere = changed(evidence, lambda case: case.path.family != "rig", late=8.0)
     assert value(everywhere, "tangential_reversal_at_exit") == 1.0
-    first = next(case for case in evidence.cases if not case.is_rig)
+    first = next(case for case in evidence.cases if case.path.family != "rig")
     but_one = changed(everywhere, lambda case: case is first)
     assert value(but_one, "tangential_reversal_at_exit") == 0.0
 
@@ -82,7 +82,7 @@ def test_the_reversal_at_the_exit_has_to_be_in_every_belt_run(evidence: Evidence
 def test_slip_at_the_exit_is_looked_for_in_the_last_fifth(evidence: Evidence) -> None:
     """Half of the area slips at the end; a run without slip there makes it 0."""
     assert value(evidence, "belt_slip_at_exit") == pytest.approx(0.5)
-    assert value(changed(evidence, lambda case: not case.is_rig, slip=0.0), "belt_slip_at_exit") == 0.0
+    assert value(changed(evidence, lambda case: case.path.family != "rig", slip=0.0), "belt_slip_at_exit") == 0.0
 
 
 def test_equal_profiles_differ_by_nothing_and_a_tenth_by_its_share(evidence: Evidence) -> None:
@@ -120,7 +120,7 @@ def test_rig_claims_take_the_worst_case(evidence: Evidence) -> None:
     assert value(evidence, "rig_peak_at_centre") == pytest.approx(0.5, abs=1e-3)
     assert value(evidence, "rig_net_tangential_impulse") == pytest.approx(0.0, abs=1e-9)
     assert value(evidence, "rig_tangential_first_half_positive") == 1.0
-    rig = [case for case in evidence.cases if case.is_rig]
+    rig = [case for case in evidence.cases if case.path.family == "rig"]
     other = changed(evidence, lambda case: case is rig[3], shear=0.0, offset=5.0)
     assert value(other, "rig_net_tangential_impulse") == pytest.approx(1.0, abs=1e-9)
     assert value(other, "rig_tangential_first_half_positive") == pytest.approx((len(rig) - 1) / len(rig))
@@ -128,17 +128,17 @@ def test_rig_claims_take_the_worst_case(evidence: Evidence) -> None:
 
 def test_warm_over_cold_takes_the_largest_ratio(evidence: Evidence) -> None:
     """Warm runs at 150 N, one at 190 N, cold ones at 200 N: 0.95."""
-    other = changed(evidence, lambda case: case.is_rig and case.temperature == 45.0, peak=150.0)
-    one = next(case for case in evidence.cases if case.is_rig and case.temperature == 45.0)
+    other = changed(evidence, lambda case: case.path.family == "rig" and case.temperature == 45.0, peak=150.0)
+    one = next(case for case in evidence.cases if case.path.family == "rig" and case.temperature == 45.0)
     other = changed(other, lambda case: case is one, peak=190.0)
     assert value(other, "force_falls_with_temperature") == pytest.approx(0.95, rel=1e-6)
 
 
 def test_measured_rig_peaks_give_the_mean_error(evidence: Evidence) -> None:
     """Measured 160 N, predicted 200 N in every case: 25 %; one case without a measurement: no value."""
-    measured = {case.case_id: 160.0 for case in evidence.cases if case.is_rig}
+    measured = {case.case_id: 160.0 for case in evidence.cases if case.path.family == "rig"}
     assert value(replace(evidence, rig_peaks=measured), "fe_error_rectangle") == pytest.approx(25.0, rel=1e-6)
-    gone = next(case.case_id for case in evidence.cases if case.is_rig)
+    gone = next(case.case_id for case in evidence.cases if case.path.family == "rig")
     fewer = {case_id: peak for case_id, peak in measured.items() if case_id != gone}
     assert value(replace(evidence, rig_peaks=fewer), "fe_error_rectangle") is None
 

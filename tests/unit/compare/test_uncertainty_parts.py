@@ -24,7 +24,7 @@ def cases(paper_study: Path) -> tuple[Case, ...]:
 
 def belt(cases: tuple[Case, ...], element_mm: float) -> Case:
     """A belt case on springs of one length."""
-    case = next(case for case in cases if case.is_belt and not case.free_rolling)
+    case = next(case for case in cases if case.path.family == "belt" and not case.free_rolling)
     return replace(case, spring=case.spring.model_copy(update={"element_length_mm": element_mm}))
 
 
@@ -65,7 +65,7 @@ def test_every_path_and_block_has_its_own(cases: tuple[Case, ...]) -> None:
 def hierarchy(tmp_path: Path, cases: tuple[Case, ...]) -> Path:
     """A sensitivity study of one rig and one belt case: standard deviations 10 % and 20 % of the mean."""
     rows = ["run,quantity,unit,input,mean,sd"]
-    rig, tyre = (next(case for case in cases if case.is_belt == kind) for kind in (False, True))
+    rig, tyre = (next(case for case in cases if case.path.on_tyre == kind) for kind in (False, True))
     for case, sd in ((rig, 10.0), (tyre, 20.0)):
         rows += [f"{case.case_id},peak normal force,N,{name},100.0,{sd}" for name in ("modulus", "rate")]
     (tmp_path / "sobol.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")

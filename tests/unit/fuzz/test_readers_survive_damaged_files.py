@@ -23,7 +23,7 @@ from tread_validate.errors import InputError
 from tread_validate.fe.model import read_model
 from tread_validate.friction.law_file import read_friction
 from tread_validate.friction.table_file import read_friction_table
-from tread_validate.geometry.trace_file import read_belt
+from tread_validate.geometry.belt_file import read_belt
 from tread_validate.geometry.trace_import import read_ridges
 from tread_validate.history import History
 from tread_validate.inp import read_deck

@@ -10,8 +10,8 @@ import pytest
 
 from tread_validate.errors import InputError
 from tread_validate.geometry import read_belt_trace
+from tread_validate.geometry.belt_file import read_belt
 from tread_validate.geometry.trace import level
-from tread_validate.geometry.trace_file import read_belt
 from tread_validate.geometry.trace_import import read_ridges
 
 Lines = list[str]

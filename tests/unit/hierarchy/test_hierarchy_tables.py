@@ -22,7 +22,7 @@ def cases(paper_study):
 
 @pytest.fixture(scope="module")
 def rig(cases):
-    return [case for case in cases if case.is_rig and case.block.shape == "rectangle"]
+    return [case for case in cases if case.path.family == "rig" and case.block.shape == "rectangle"]
 
 
 @pytest.fixture(scope="module")

@@ -57,7 +57,7 @@ def test_a_fit_far_off_is_refused(loss: float, refused: bool, altered_study: Cal
 
 def test_a_slower_run_needs_a_lower_band(paper_study: Path) -> None:
     """Half the speed halves both ends of the band, as every time doubles."""
-    cases = [case for case in load_study(paper_study).cases() if case.is_rig and case.temperature == 22.0]
+    cases = [case for case in load_study(paper_study).cases() if case.path.family == "rig" and case.temperature == 22.0]
     slow, fast = (min(cases, key=lambda c: c.speed), max(cases, key=lambda c: c.speed))
     slow = next(c for c in cases if c.speed == slow.speed and c.interference == fast.interference)
     bands = [np.array(worths([case])[0].needed) for case in (slow, fast)]

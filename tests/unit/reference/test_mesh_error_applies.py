@@ -21,7 +21,7 @@ def cases(root: Path):
 
 def test_a_study_of_twice_the_element_size_does_not_get_the_mesh_error_of_the_finer_one(cases, tmp_path):
     """Known for the runs it was made on; not for 2 mm, another engine, the other block or a belt path."""
-    case = next(case for case in cases if case.is_rig and case.block.shape == "rectangle")
+    case = next(case for case in cases if case.path.family == "rig" and case.block.shape == "rectangle")
     record = {"engine": "embedded", "code": "0" * 16, "deck_digest": "0" * 64, "history_sha256": "0" * 64}
     numbers = {"mesh_error": ERRORS, "quantities": {}}
     write_yaml(tmp_path / "made.yaml", document(case, "liu2010", [record] * 3, [2.0, 1.4, 1.0], numbers))
@@ -29,8 +29,8 @@ def test_a_study_of_twice_the_element_size_does_not_get_the_mesh_error_of_the_fi
     found = MeshErrors(tmp_path / "mesh")
     size = case.deck.element_size_mm
     coarse = replace(case, deck=case.deck.model_copy(update={"element_size_mm": 2.0 * size}))
-    other_block = next(one for one in cases if one.is_rig and one.block.shape != "rectangle")
-    belt = next(one for one in cases if one.is_belt)
+    other_block = next(one for one in cases if one.path.family == "rig" and one.block.shape != "rectangle")
+    belt = next(one for one in cases if one.path.family == "belt")
     assert found.error(case, "embedded") == ERRORS
     assert found.error(replace(case, speed=2.0 * case.speed), "embedded") == ERRORS
     assert found.error(coarse, "embedded") is None

@@ -16,9 +16,9 @@ def cases() -> tuple[Case, ...]:
 
 @pytest.fixture(scope="session")
 def belt(cases) -> Case:
-    return next(case for case in cases if not case.is_rig and not case.free_rolling)
+    return next(case for case in cases if case.path.family != "rig" and not case.free_rolling)
 
 
 @pytest.fixture(scope="session")
 def rig(cases) -> Case:
-    return next(case for case in cases if case.is_rig)
+    return next(case for case in cases if case.path.family == "rig")

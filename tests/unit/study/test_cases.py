@@ -42,7 +42,7 @@ def test_case_ids_are_safe_file_and_job_names(cases):
 def test_every_case_names_its_assumed_and_synthetic_inputs(cases):
     for case in cases:
         assert "compound surrogate (synthetic)" in case.assumed()
-        assert ("path rig (assumed)" in case.assumed()) == case.is_rig
+        assert ("path rig (assumed)" in case.assumed()) == (case.path.family == "rig")
 
 
 def test_digest_changes_with_a_condition_and_not_with_a_label(altered_study):

@@ -14,7 +14,7 @@ from tread_validate.validity import store
 from tread_validate.validity.build import tried
 from tread_validate.validity.calibration import Coverage, conformal, coverage, factors, fitted, held_out
 from tread_validate.validity.design import RANGES, design
-from tread_validate.validity.groups import coordinates, groups_of
+from tread_validate.validity.groups import coordinates, groups_of, kind_of
 from tread_validate.validity.points import MESHES, MODELS
 from tread_validate.validity.rule import NEAREST, expected_error
 from tread_validate.validity.summary import summary
@@ -35,7 +35,7 @@ def cases(base):
 
 def point(case, **errors):
     found = {"normal": 0.0, "impulse": 0.0, "tangential": 0.0, **errors}
-    kind = f"{'rig' if case.is_rig else 'belt'}, {case.block.mounting}"
+    kind = kind_of(case)
     return Point(case.case_id, kind, groups_of(case), dict.fromkeys(found, 0.0), {"condensed": found})
 
 
@@ -79,7 +79,7 @@ def test_groups_know_no_scale(cases, scale, number):
 
 def test_the_sticking_limit_is_one_where_creep_strain_reaches_it(cases):
     """eps l_c/h = mu p/G with p = E D/h, l_c V times the time that a column touches: by hand for a belt."""
-    case = next(case for case in cases if not case.is_rig and case.creep_ratio > 0)
+    case = next(case for case in cases if case.path.family != "rig" and case.creep_ratio > 0)
     found = groups_of(case)
     limit = case.friction.static_coefficient * 2 * (1 + case.compound.poissons_ratio) * case.interference / case.height
     from tread_validate.geometry import path_of
@@ -271,7 +271,7 @@ def test_a_damaged_point_is_run_again(cases, tmp_path, counted):
 
 def test_the_rule_says_where_it_ends(cases, base):
     points = [point(case, normal=0.01) for case in cases]
-    inside = next(case for case in cases[9:] if case.block.mounting == "flat" and not case.is_rig)
+    inside = next(case for case in cases[9:] if case.block.mounting == "flat" and case.path.family != "rig")
     found = expected_error(inside, "condensed", points)
     assert found.outside == ()
     assert found.normal == pytest.approx(0.01)

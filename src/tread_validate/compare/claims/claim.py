@@ -91,7 +91,7 @@ class Evidence:
     def belt_case(self, *, measured: bool, creep_ratio: float | None = None) -> Case | None:
         """Return the first belt case on the measured or simplified profile; free rolling where no creep is given."""
         for case in self.cases:
-            if not case.is_belt or is_measured(case) != measured:
+            if not case.path.on_tyre or case.path.is_measured != measured:
                 continue
             if creep_ratio is None:
                 fits = case.free_rolling
@@ -104,11 +104,11 @@ class Evidence:
 
     def belt_cases(self) -> tuple[Case, ...]:
         """Return every tyre case."""
-        return tuple(case for case in self.cases if case.is_belt)
+        return tuple(case for case in self.cases if case.path.on_tyre)
 
     def rig_cases(self) -> tuple[Case, ...]:
         """Return every rig case."""
-        return tuple(case for case in self.cases if case.is_rig)
+        return tuple(case for case in self.cases if case.path.gives_coefficients)
 
     def run(self, source: str, case: Case) -> SourceRun:
         """Return a source's run of a case, missing where there is none."""
@@ -137,11 +137,6 @@ Compute = Callable[[Evidence, str], Computed]
 def nothing(note: str, status: str = "missing", cases: Sequence[str] = ()) -> Computed:
     """Return a claim without a computed value, and why."""
     return Computed(None, tuple(cases), status, note)
-
-
-def is_measured(case: Case) -> bool:
-    """Tell whether a tyre case runs on a measured trace."""
-    return case.path.is_measured
 
 
 def judge(published: PublishedValue, kind: str, source: str, computed: Computed) -> Claim:

@@ -8,7 +8,7 @@ from typing import Any
 from ...study import Case, Wlf
 from ...units import IN_MM, MM
 from ...yaml_text import read_yaml
-from .claim import Compute, Computed, Evidence, is_measured, nothing
+from .claim import Compute, Computed, Evidence, nothing
 
 BELT, RIG = "belt", "rig"
 
@@ -35,9 +35,9 @@ def _of(which: str, value: Callable[[Case], Any], choose: Callable[[list[float]]
 def _belt_file(key: str) -> Compute:
     def compute(evidence: Evidence, source: str) -> Computed:
         for case in evidence.belt_cases():
-            if is_measured(case):
-                path = case.root / str(getattr(case.path, "file", ""))
-                data = read_yaml(path) if path.suffix in (".yaml", ".yml") else None
+            if case.path.is_measured:
+                file = case.path.belt_file(case.root)
+                data = None if file is None else read_yaml(file)
                 if not isinstance(data, dict):
                     return nothing("the study's trace is not a belt file")
                 number = len(data["traces"]) if key == "traces" and "traces" in data else data.get(key)

@@ -9,11 +9,10 @@ import numpy as np
 
 from ...geometry import path_of
 from ...geometry.trace_curvature import three_point_curvature
-from ...geometry.trace_file import read_belt
 from ...material import prony_series, relative_shift
 from ...study import Case
 from ...units import IN_GRAM, IN_KPA, IN_MPA, MILLI
-from .claim import Compute, Computed, Evidence, is_measured, nothing
+from .claim import Compute, Computed, Evidence, nothing
 
 GRAVITY = 9.80665  # m/s2
 ESTIMATE_FORCE = 40.0  # N, the paper's inertia estimate
@@ -75,14 +74,12 @@ def _from_belt(value: Callable[[Case], float]) -> Compute:
 
 def _curvature(which: str) -> Compute:
     def compute(evidence: Evidence, source: str) -> Computed:
-        case = next((case for case in evidence.belt_cases() if is_measured(case)), None)
+        case = next((case for case in evidence.belt_cases() if case.path.is_measured), None)
         if case is None:
             return nothing("the study has no measured profile")
-        file = case.root / str(getattr(case.path, "file", ""))
-        if file.suffix not in (".yaml", ".yml"):
+        if case.path.belt_file(case.root) is None:
             return nothing("the study's trace is not a belt file")
-        traces = read_belt(file)
-        x, height = traces[str(getattr(case.path, "trace", ""))]
+        x, height = next((ridge.x, ridge.height) for ridge in case.path.ridges(case.root) if ridge.used)
         curvature = three_point_curvature(x, height)
         known = np.isfinite(curvature)
         if which == "largest":

@@ -60,7 +60,7 @@ def computed_regression(
 ) -> Regression:
     """Regress a source's peaks over the rig cases of the study; a missing run shows as a set without a value."""
     peaks: list[Peak] = []
-    rig = [case for case in cases if case.is_rig]
+    rig = [case for case in cases if case.path.gives_coefficients]
     assumed = sorted({item for case in rig for item in case.assumed()} | {ZERO_ASSUMED})
     if any(not _printed(case.speed_rpm) for case in rig):
         assumed.append(SPEEDS_ASSUMED)

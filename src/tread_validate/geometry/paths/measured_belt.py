@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path as FilePath
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -11,22 +12,44 @@ from pydantic import Field
 from ...errors import InputError
 from ...fields import FileName, Name
 from ..belt import belt_path
-from ..belt_file import read_belt_trace
+from ..belt_file import read_belt, read_belt_trace
 from ..line import TabulatedLine
 from ..measured import line_from_trace
 from ..path import Path
-from ..path_entry import Conditions, Family, PathEntry, check_interference
+from ..path_entry import Conditions, Family, PathEntry, Ridge, check_interference
+from ..trace import LevelledTrace, level
+from ..trace_import import read_ridges
 
 
 class MeasuredBelt(PathEntry):
     """A measured trace of the loaded belt."""
 
     family: ClassVar[Family] = "belt"
+    on_tyre: ClassVar[bool] = True
     is_measured: ClassVar[bool] = True
 
     kind: Literal["measured_belt"]
     file: FileName = Field(description="belt file as `tread-validate import-belt` writes it, or raw ridge heights")
     trace: Name = Field("mid_top", description="which ridge of the file")
+
+    def belt_file(self, root: FilePath) -> FilePath | None:
+        """Return the belt file; None for raw heights."""
+        return None if self._is_raw() else root / self.file
+
+    def ridges(self, root: FilePath) -> tuple[Ridge, ...]:
+        """Return the smoothed ridges: all of a belt file, the used one of raw heights."""
+        file = root / self.file
+        found = {self.trace: read_belt_trace(file, self.trace)} if self._is_raw() else read_belt(file)
+        return tuple(Ridge(name, x, height, name == self.trace) for name, (x, height) in found.items())
+
+    def raw_ridges(self, root: FilePath) -> tuple[LevelledTrace, ...]:
+        """Return the levelled ridges of raw heights, in the order of the file; none of a belt file."""
+        if not self._is_raw():
+            return ()
+        return level(read_ridges(root / self.file))
+
+    def _is_raw(self) -> bool:
+        return self.file.lower().endswith(".csv")
 
     def build(self, run: Conditions) -> Path:
         """Return the path along the trace; raises `InputError` for a bad one."""

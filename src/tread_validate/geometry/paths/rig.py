@@ -24,6 +24,8 @@ class Rig(PathEntry):
 
     family: ClassVar[Family] = "rig"
     mount_is_rigid: ClassVar[bool] = True
+    gives_coefficients: ClassVar[bool] = True
+    pulls: ClassVar[bool] = False
     uncertain: ClassVar[tuple[Uncertain, ...]] = (
         Uncertain("big_wheel_diameter_mm", "big wheel's diameter", 600.0, 1600.0),
     )
@@ -43,6 +45,10 @@ class Rig(PathEntry):
     def tallest_block(self) -> tuple[float, str]:
         """Return the small wheel's radius, mm."""
         return 0.5 * self.small_wheel_diameter_mm, "the small wheel's radius"
+
+    def wheel_radii(self) -> tuple[float, float]:
+        """Return the radii of the small and the big wheel, mm."""
+        return 0.5 * self.small_wheel_diameter_mm, 0.5 * self.big_wheel_diameter_mm
 
     def build(self, run: Conditions) -> Path:
         """Return the path of a rig case.

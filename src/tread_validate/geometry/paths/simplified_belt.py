@@ -17,6 +17,7 @@ class SimplifiedBelt(PathEntry):
     """A flat contact patch between two arcs."""
 
     family: ClassVar[Family] = "belt"
+    on_tyre: ClassVar[bool] = True
     uncertain: ClassVar[tuple[Uncertain, ...]] = (
         Uncertain("edge_radius_mm", "edge radius", 400.0, 600.0),
         Uncertain("patch_length_mm", "patch length", 150.0, 190.0),

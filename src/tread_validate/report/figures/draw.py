@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,7 +11,7 @@ import pandas as pd
 from ...compare.baseline.histories import Histories
 from ...compare.baseline.movement import Movement
 from ...compare.rig_peaks import RigPeak
-from ...geometry import Family
+from ...geometry import PathEntry
 from ...history import History
 from ...palette import Look
 from ...study import Case, LoadedStudy
@@ -95,7 +95,7 @@ class Drawings:
 
     def _figure5(self) -> tuple[Drawn, ...]:
         """Parallelogram at 300 rpm and 0.2 mm, at both temperatures: the case nearest to that for each."""
-        rig = [view for view in self.views if view.row.path in self._paths("rig")]
+        rig = [view for view in self.views if view.row.path in self._paths(lambda path: path.gives_coefficients)]
         if not rig:
             return ()
         wanted = {"shape": "parallelogram", "speed_rpm": 300.0, "interference_mm": 0.2}
@@ -114,8 +114,8 @@ class Drawings:
         return tuple(found)
 
     def _belts(self) -> tuple[Drawn, ...]:
-        measured = self._paths("belt", measured=True)
-        simplified = self._paths("belt", measured=False)
+        measured = self._paths(lambda path: path.on_tyre and path.is_measured)
+        simplified = self._paths(lambda path: path.on_tyre and not path.is_measured)
         found: list[Drawn] = []
         for names, number in ((measured, "14"), (simplified, "16")):
             for view in [view for view in self.views if view.row.path in names][:1]:
@@ -144,7 +144,7 @@ class Drawings:
         )
 
     def _peaks(self) -> tuple[Drawn, ...]:
-        rig = [view for view in self.views if view.row.path in self._paths("rig")]
+        rig = [view for view in self.views if view.row.path in self._paths(lambda path: path.gives_coefficients)]
         grids: dict[tuple[str, str], list[CaseView]] = {}
         for view in rig:
             grids.setdefault((view.row.shape, view.levels["temperature_degC"]), []).append(view)
@@ -205,8 +205,8 @@ class Drawings:
     def geometry(self) -> tuple[Drawn, ...]:
         """Draw belt, rig and meshes."""
         cases = {case.path_name: case for case in reversed(self._cases())}
-        belts = {name: case for name, case in reversed(cases.items()) if case.is_belt}
-        rigs = [case for case in cases.values() if case.is_rig]
+        belts = {name: case for name, case in reversed(cases.items()) if case.path.on_tyre}
+        rigs = [(case, radii) for case in cases.values() if (radii := case.path.wheel_radii()) is not None]
         found: list[Drawn] = []
         if belts:
             marks = self.marks.of(
@@ -219,12 +219,13 @@ class Drawings:
             first = next(iter(belts.values()))
             found.append(geometry.belt_sketch(self.folder, first, self.input_marks(f"path {first.path_name}")))
         found += [
-            geometry.rig_sketch(self.folder, case, self.input_marks(f"path {case.path_name}")) for case in rigs[:1]
+            geometry.rig_sketch(self.folder, case, radii, self.input_marks(f"path {case.path_name}"))
+            for case, radii in rigs[:1]
         ]
         found += [
             geometry.track_sketch(self.folder, case, self.input_marks(f"path {name}"))
             for name, case in reversed(cases.items())
-            if case.path.family == "track"
+            if not case.path.rolls
         ]
         blocks = {case.block_name: case for case in reversed(self._cases())}
         for name, case in reversed(blocks.items()):
@@ -242,7 +243,9 @@ class Drawings:
         chosen: dict[tuple[str, str], Case] = {}
         for case in self._cases():
             middle = chosen.get((case.path_name, case.block_name))
-            if middle is None or (case.is_rig and abs(case.interference - 2e-4) < abs(middle.interference - 2e-4)):
+            if middle is None or (
+                case.path.gives_coefficients and abs(case.interference - 2e-4) < abs(middle.interference - 2e-4)
+            ):
                 chosen[(case.path_name, case.block_name)] = case
         found = {}
         for case in chosen.values():
@@ -252,12 +255,8 @@ class Drawings:
             found[labels.get(case.case_id, case.case_id)] = case
         return found
 
-    def _paths(self, family: Family, measured: bool | None = None) -> set[str]:
-        return {
-            name
-            for name, path in self.study.model.paths.items()
-            if path.family == family and measured in (None, path.is_measured)
-        }
+    def _paths(self, fits: Callable[[PathEntry], bool]) -> set[str]:
+        return {name for name, path in self.study.model.paths.items() if fits(path)}
 
     def input_marks(self, name: str) -> tuple[Mark, ...]:
         """Return the mark of one input, if it is assumed or synthetic."""

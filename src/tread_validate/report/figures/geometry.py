@@ -13,11 +13,10 @@ from matplotlib.path import Path as MeshPath
 from numpy.typing import NDArray
 
 from ...geometry import Path as BlockPath
-from ...geometry import path_of, read_belt_trace
-from ...geometry.trace_file import read_belt
+from ...geometry import path_of
 from ...palette import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from ...plotting import WIDTH
-from ...study import Case, MeasuredBelt, Rig
+from ...study import Case
 from ...units import MM
 from ..content import Mark
 from .style import Drawn, draw
@@ -37,19 +36,17 @@ def belt_heights(folder: Path, paths: Mapping[str, Case], marks: tuple[Mark, ...
             x, y, _ = path_of(case).mount(arc)
             level = float(path_of(case).mount(0.0)[1])
             axes.plot(x / MM, (y - level) / MM, style, color=color, label=_named(name, case))
-            if isinstance(case.path, MeasuredBelt):
-                for ridge, (places, height) in _ridges(case).items():
-                    near = np.abs(places) <= REACH
-                    own = ridge == case.path.trace
-                    axes.plot(
-                        places[near] / MM,
-                        height[near] / MM,
-                        "." if own else "-",
-                        ms=2.5,
-                        lw=0.6,
-                        color=color if own else "#9aa3ab",
-                        label=f"_ridge {ridge}",
-                    )
+            for ridge in case.path.ridges(case.root):
+                near = np.abs(ridge.x) <= REACH
+                axes.plot(
+                    ridge.x[near] / MM,
+                    ridge.height[near] / MM,
+                    "." if ridge.used else "-",
+                    ms=2.5,
+                    lw=0.6,
+                    color=color if ridge.used else "#9aa3ab",
+                    label=f"_ridge {ridge.name}",
+                )
         axes.set(xlabel="distance from the middle of the patch, mm", ylabel="height over the flat patch, mm")
         axes.legend()
 
@@ -79,10 +76,9 @@ def belt_curvature(folder: Path, paths: Mapping[str, Case], marks: tuple[Mark, .
     return draw(folder, "belt-curvature", "Curvature of the tyre belt", caption, paint, marks)
 
 
-def rig_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
-    """Draw the two wheels to scale with the block in the middle of its contact."""
-    assert isinstance(case.path, Rig)
-    small, big = 0.5 * case.path.small_wheel_diameter_mm, 0.5 * case.path.big_wheel_diameter_mm
+def rig_sketch(folder: Path, case: Case, radii: tuple[float, float], marks: tuple[Mark, ...]) -> Drawn:
+    """Draw the two wheels, of the radii in mm, to scale with the block in the middle of its contact."""
+    small, big = radii
     depth = case.interference / MM
 
     def paint(axes: Axes) -> None:
@@ -147,15 +143,6 @@ def track_sketch(folder: Path, case: Case, marks: tuple[Mark, ...]) -> Drawn:
     caption = f"Prescribed motion of block {case.block_name.replace('_', ' ')} at {case.interference / MM:g} mm."
     key = f"track-sketch-{case.path_name}".replace("_", "-")
     return draw(folder, key, f"The flat track, {_named(case.path_name, case)}", caption, paint, marks)
-
-
-def _ridges(case: Case) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Return the smoothed ridges of a measured belt: all of a belt file, the used one of raw heights."""
-    assert isinstance(case.path, MeasuredBelt)
-    file = case.root / case.path.file
-    if file.suffix.lower() == ".csv":
-        return {case.path.trace: read_belt_trace(file, case.path.trace)}
-    return read_belt(file)
 
 
 def _block(axes: Axes, path: BlockPath, instants: tuple[float, ...]) -> None:
