@@ -14,7 +14,7 @@ def command(
 ) -> None:
     """Write the JSON schema of a study, case, material or friction file, generated from the models.
 
-    Example: tread-validate schema -o workflow/schemas/study.schema.json
+    Example: tread-validate schema -o study.schema.json
     """
     import json
 
