@@ -14,13 +14,13 @@ from hypothesis import strategies as st
 from tread_validate import deck
 from tread_validate.deck.vfric import properties, source
 from tread_validate.friction import (
+    ENTRIES,
     FORMS,
     FrictionLaw,
     coulomb_law,
     huemer_law,
     kinetic_kernel,
     law,
-    power_law,
     table_law,
 )
 from tread_validate.inp import read_deck
@@ -34,12 +34,17 @@ TABLE = table_law(
     np.array([[0.9, 1.2, 1.1, 0.8], [0.8, 1.0, 0.95, 0.7], [0.7, 0.85, 0.8, 0.6]]),
     0.95,
 )
-LAWS = {
+DRAWN = {
     "coulomb": coulomb_law(0.73, 0.9),
     "huemer": huemer_law(0.8212, 0.0, 0.9, 10.0, 3.729, -4.495, 1.785),
     "table": TABLE,
-    "power": power_law(0.8, 0.1, -0.15, 1e-3, 0.9),
-}  # a form that is missing here fails the first test
+}
+EXAMPLES = [
+    law(entry.model_validate({"kind": kind, "origin": "assumed", "source": "example"} | dict(entry.example)))
+    for entry in ENTRIES
+    if (kind := entry.model_fields["kind"].annotation.__args__[0]) in FORMS and "file" not in entry.example
+]
+LAWS = {friction.kind: friction for friction in EXAMPLES} | DRAWN  # the example of every law that is there
 Load = Callable[[str], Any]
 
 

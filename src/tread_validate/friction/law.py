@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -135,7 +135,12 @@ class FrictionLaw:
 
 
 class FrictionEntry(Sourced, ABC):
-    """A friction law as a study gives it."""
+    """A friction law as a study gives it.
+
+    `example` holds the keys, beside kind, origin and source, of one such law; tests of all laws take it.
+    """
+
+    example: ClassVar[Mapping[str, Any]]
 
     kind: str
     static_coefficient: Coefficient = Field(0.9, description="limit of tangential over normal force while sticking")

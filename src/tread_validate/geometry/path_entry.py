@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path as FilePath
-from typing import ClassVar, Literal, Protocol, get_args
+from typing import Any, ClassVar, Literal, Protocol, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,6 +114,8 @@ class PathEntry(Sourced, ABC):
         Whether the path comes from a measured shape.
     uncertain : tuple of Uncertain
         Keys that the paper does not print, or that were read off a figure.
+    example : mapping
+        Keys, beside kind, origin and source, of one such path; tests of all paths take it.
     """
 
     family: ClassVar[Family]
@@ -123,6 +126,7 @@ class PathEntry(Sourced, ABC):
     mount_is_rigid: ClassVar[bool] = False
     is_measured: ClassVar[bool] = False
     uncertain: ClassVar[tuple[Uncertain, ...]] = ()
+    example: ClassVar[Mapping[str, Any]]
 
     kind: str
 

@@ -11,6 +11,10 @@ import pytest
 from pydantic import BaseModel
 
 from tread_validate.fields import DataFile, Label, Numerics
+from tread_validate.friction import ENTRIES as LAWS
+from tread_validate.friction.law import FrictionEntry
+from tread_validate.geometry import ENTRIES as PATHS
+from tread_validate.geometry import PathEntry
 from tread_validate.study import Case, LibraryCompound, Study
 from tread_validate.study.digest import marks
 from tread_validate.study.grid import expand
@@ -18,6 +22,20 @@ from tread_validate.study.library import FOLDER
 
 SOURCED = {"origin": "assumed", "source": "for the test"}
 MODEL = {"description": "a model", "origin": "somebody"}
+
+
+def kind(entry: type[BaseModel]) -> str:
+    """Return the word by which a study names a kind of law or path."""
+    return typing.get_args(entry.model_fields["kind"].annotation)[0]
+
+
+def example(entry: type[FrictionEntry | PathEntry]) -> dict[str, object]:
+    """Return the example of a law or path as a study gives it, any file in it the test's."""
+    keys = {key: "one.dat" if key == "file" else value for key, value in entry.example.items()}
+    return SOURCED | {"kind": kind(entry)} | keys
+
+
+STANDING = {kind(entry) for entry in PATHS if not entry.rolls}  # paths of which a creep ratio has no meaning
 EVERYTHING = {
     "schema_version": 1,
     "name": "everything",
@@ -57,15 +75,7 @@ EVERYTHING = {
         },
         "library": {"kind": "library", "name": "one"},
     },
-    "friction_laws": {
-        "coulomb": SOURCED | {"kind": "coulomb", "kinetic_coefficient": 0.5},
-        "huemer": SOURCED
-        | {"kind": "huemer", "alpha": 0.8, "beta": 0.1, "n": 0.9, "m": 10.0, "a": 3.7, "b": -4.5, "c": 1.8},
-        "power": SOURCED
-        | {"kind": "power", "reference_coefficient": 0.8, "reference_slip_speed_mm_s": 100.0, "exponent": -0.1},
-        "table": SOURCED | {"kind": "table", "file": "one.dat"},
-        "huemer_file": SOURCED | {"kind": "huemer_file", "file": "one.dat"},
-    },
+    "friction_laws": {kind(entry): example(entry) for entry in LAWS},
     "blocks": {
         "sipes": SOURCED
         | {
@@ -78,13 +88,8 @@ EVERYTHING = {
         },
         "plain": SOURCED | {"shape": "rectangle", "length_mm": 25.0, "width_mm": 20.0, "height_mm": 8.0},
     },
-    "paths": {
-        "rig": SOURCED | {"kind": "rig"},
-        "wheel": SOURCED | {"kind": "rig", "big_wheel_diameter_mm": 800.0},
-        "simplified": SOURCED | {"kind": "simplified_belt"},
-        "track": SOURCED | {"kind": "flat_track", "approach_ms": 2.0, "hold_ms": 5.0, "retreat_ms": 2.0},
-        "measured": SOURCED | {"kind": "measured_belt", "file": "one.dat"},
-    },
+    "paths": {kind(entry): example(entry) for entry in PATHS}
+    | {"wheel": SOURCED | {"kind": "rig", "big_wheel_diameter_mm": 800.0}},
     "tolerances": {"peak_positive_tangential_force": {"value": 0.2, "floor": 5.0, "reason": "a screening"}},
     "models": {
         "function": MODEL | {"kind": "python", "object": "block:forces", "files": ["one.dat"]},
@@ -96,15 +101,25 @@ EVERYTHING = {
         | {"temperature_degC": 22.0, "interference_mm": 0.2, "creep_percent": 0.1}
         | speed
         for name, path, block, compound, friction, speed in (
-            ("a", ["simplified", "rig"], "sipes", "zener", "coulomb", {"speed_m_s": 2.0}),
+            ("a", ["simplified_belt", "rig"], "sipes", "zener", "coulomb", {"speed_m_s": 2.0}),
             ("b", "wheel", "sipes", "prony", "huemer", {"speed_m_s": 3.0}),
-            ("c", "measured", "sipes", "prony_file", "table", {"speed_m_s": 2.0}),
+            ("c", "measured_belt", "sipes", "prony_file", "table", {"speed_m_s": 2.0}),
             ("d", "rig", "plain", "sweeps", "huemer_file", {"speed_rpm": 300.0}),
-            ("f", "rig", "plain", "zener", "power", {"speed_rpm": 300.0}),
-            ("g", "track", "plain", "zener", "power", {"speed_m_s": 2.0, "creep_percent": 0.0}),
-            ("h", "rig", "plain", "springpots", "power", {"speed_rpm": 300.0}),
-            ("i", "rig", "plain", "tabulated", "power", {"speed_rpm": 300.0}),
-            ("k", "rig", "plain", "library", "power", {"speed_rpm": 300.0}),
+            ("h", "rig", "plain", "springpots", "coulomb", {"speed_rpm": 300.0}),
+            ("i", "rig", "plain", "tabulated", "coulomb", {"speed_rpm": 300.0}),
+            ("k", "rig", "plain", "library", "coulomb", {"speed_rpm": 300.0}),
+            *((f"l{n}", "rig", "plain", "zener", kind(entry), {"speed_m_s": 2.0}) for n, entry in enumerate(LAWS)),
+            *(
+                (
+                    f"p{n}",
+                    kind(entry),
+                    "plain",
+                    "zener",
+                    "coulomb",
+                    {"speed_m_s": 2.5, "creep_percent": 0.1 if entry.rolls else 0.0},
+                )
+                for n, entry in enumerate(PATHS)
+            ),
             ("e", "rig", "plain", "zener", "coulomb", {"speed_rpm": 300.0, "poissons_ratio": 0.47}),
         )
     ],
@@ -210,7 +225,7 @@ def test_changing_any_field_changes_the_digest_unless_it_is_a_label(root):
             continue
         if isinstance(owner, LibraryCompound) and name == "kind":
             continue  # says where the compound stands, not what it is
-        if name == "schema_version" or (name == "creep_percent" and owner.path == "track"):
+        if name == "schema_version" or (name == "creep_percent" and owner.path in STANDING):
             continue  # of the file's form; and a track has no creep
         named = any(is_label(marks(type(part))[key]) for part, key in _chain(study, at))
         altered = digests(replaced(study, at, changed(value, name, found)), root)

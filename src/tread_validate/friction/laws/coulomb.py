@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +51,8 @@ class Coulomb(FrictionEntry):
     """A constant kinetic coefficient."""
 
     model_config = ConfigDict(json_schema_extra=_may_lack_static)
+
+    example: ClassVar[Mapping[str, Any]] = {"kinetic_coefficient": 0.5}
 
     kind: Literal["coulomb"]
     static_coefficient: Coefficient = Field(description="the kinetic coefficient where it is left out")

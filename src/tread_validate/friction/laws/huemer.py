@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
+from typing import Any, ClassVar, Literal
 
 from pydantic import Field, FiniteFloat
 
@@ -21,6 +22,16 @@ class Huemer(FrictionEntry):
 
     Huemer et al., Eng. Comput. 18 (2001) 417-436.
     """
+
+    example: ClassVar[Mapping[str, Any]] = {
+        "alpha": 0.8,
+        "beta": 0.1,
+        "n": 0.9,
+        "m": 10.0,
+        "a": 3.7,
+        "b": -4.5,
+        "c": 1.8,
+    }
 
     kind: Literal["huemer"]
     alpha: FiniteFloat

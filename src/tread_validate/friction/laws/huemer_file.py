@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
+from typing import Any, ClassVar, Literal
 
 from ...fields import FileName
 from ..law import FrictionEntry, FrictionLaw
@@ -12,6 +13,8 @@ from ..law_file import read_friction
 
 class HuemerFile(FrictionEntry):
     """A friction file, as ``tread-validate fit-friction`` writes it."""
+
+    example: ClassVar[Mapping[str, Any]] = {"file": "friction.yaml"}
 
     kind: Literal["huemer_file"]
     file: FileName

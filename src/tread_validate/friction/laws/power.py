@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +65,10 @@ POWER = LawForm(
 
 class Power(FrictionEntry):
     """mu = mu0 (v/v0)^n, whatever the pressure."""
+
+    example: ClassVar[Mapping[str, Any]] = {
+        "reference_coefficient": 0.8, "reference_slip_speed_mm_s": 100.0, "exponent": -0.1,
+    }  # fmt: skip
 
     kind: Literal["power"]
     reference_coefficient: Coefficient = Field(description="mu0, the kinetic coefficient at v0")

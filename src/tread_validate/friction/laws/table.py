@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +100,8 @@ TABLE = LawForm("table", 2, {}, table_kernel, FORTRAN, 0)
 
 class FrictionTable(FrictionEntry):
     """A measured table of friction coefficient against pressure and slip speed, interpolated."""
+
+    example: ClassVar[Mapping[str, Any]] = {"file": "friction.csv"}
 
     kind: Literal["table"]
     file: FileName

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -98,6 +99,8 @@ class FlatTrack(PathEntry):
 
     family: ClassVar[Family] = "track"
     rolls: ClassVar[bool] = False
+
+    example: ClassVar[Mapping[str, Any]] = {"approach_ms": 2.0, "hold_ms": 5.0, "retreat_ms": 2.0}
 
     kind: Literal["flat_track"]
     approach_ms: Positive = Field(description="from the first contact to the full depth, along a quarter of a sine")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path as FilePath
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -27,6 +28,8 @@ class MeasuredBelt(PathEntry):
     family: ClassVar[Family] = "belt"
     on_tyre: ClassVar[bool] = True
     is_measured: ClassVar[bool] = True
+
+    example: ClassVar[Mapping[str, Any]] = {"file": "belt.yaml"}
 
     kind: Literal["measured_belt"]
     file: FileName = Field(description="belt file as `tread-validate import-belt` writes it, or raw ridge heights")

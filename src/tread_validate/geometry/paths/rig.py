@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Literal
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -29,6 +30,8 @@ class Rig(PathEntry):
     uncertain: ClassVar[tuple[Uncertain, ...]] = (
         Uncertain("big_wheel_diameter_mm", "big wheel's diameter", 600.0, 1600.0),
     )
+
+    example: ClassVar[Mapping[str, Any]] = {}
 
     kind: Literal["rig"]
     small_wheel_diameter_mm: Positive = Field(200.0, description="over the tread surface, block and belt flush")

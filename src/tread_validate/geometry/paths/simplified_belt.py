@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Literal
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal
 
 from ...fields import Positive
 from ...units import MM
@@ -22,6 +23,8 @@ class SimplifiedBelt(PathEntry):
         Uncertain("edge_radius_mm", "edge radius", 400.0, 600.0),
         Uncertain("patch_length_mm", "patch length", 150.0, 190.0),
     )
+
+    example: ClassVar[Mapping[str, Any]] = {}
 
     kind: Literal["simplified_belt"]
     patch_length_mm: Positive = 170.0
