@@ -55,9 +55,14 @@ def command(
     result.write(output)
     record = result.record
     axes, balance, largest = record["axes"], record["energy_balance"], record["largest"]
+    touched = bool(result.contact.iloc[:, 1:4].abs().to_numpy().any())
+    forces = (
+        f"peak normal force {result.history.normal_force.max():.2f} N along {axes['normal']} (travel {axes['travel']})"
+        if touched
+        else "no contact in the last step: its normal and tangential forces are 0"
+    )
     typer.echo(
-        f"{output}: {result.history.time.size} samples, peak normal force {result.history.normal_force.max():.2f} N "
-        f"along {axes['normal']} (travel {axes['travel']}); "
+        f"{output}: {result.history.time.size} samples, {forces}; "
         f"{record['elements']} elements, {record['increments']} increments in {record['wall_time_s']:.1f} s"
     )
     typer.echo(

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..inp import DataLine, KeywordBlock
-from .amplitude import Amplitude
+from .amplitude import Amplitude, amplitude_at
 from .loads import Load, read_loads
 from .mesh import Mesh
 
@@ -94,6 +94,7 @@ def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amp
     """Read model-level BOUNDARY and every step; conditions, loads and pairs carry over to the next step."""
     steps: list[Step] = []
     current = Step("initial", blocks[0].where)
+    before, total = current, 0.0
     history = False
     for block in blocks:
         word = block.keyword
@@ -107,6 +108,8 @@ def read_steps(blocks: list[KeywordBlock], mesh: Mesh, amplitudes: dict[str, Amp
             if not current.period > 0:
                 raise InputError(current.where, "a step without *DYNAMIC, EXPLICIT", "a duration above 0")
             _refuse_stale(current)
+            _refuse_jumps(current, before, total)
+            total += current.period
             steps.append(current)
         elif word == "DYNAMIC":
             _dynamic(block, current)
@@ -164,6 +167,31 @@ def _refuse_stale(step: Step) -> None:
                 f"amplitude {item.amplitude.name} in STEP TIME carried into step {step.name}",
                 "TIME=TOTAL TIME",
             )
+
+
+def _refuse_jumps(step: Step, before: Step, total: float) -> None:
+    """Refuse a displacement that does not begin where the step before, which ended at `total`, has left it."""
+    for key, now in step.conditions.items():
+        was = before.conditions.get(key)
+        moved = was is not None and was.kind == DISPLACEMENT
+        if now.kind != DISPLACEMENT or now.step != step.where or not (moved or before.period == 0.0):
+            continue
+        left = _displacement(was, before.period, total) if was is not None and moved else 0.0
+        begins = _displacement(now, 0.0, total)
+        if abs(begins - left) > 1e-6 * max(abs(now.magnitude), abs(left)):
+            raise InputError(
+                now.where, f"a displacement that jumps from {left:g} to {begins:g} as step {step.name} begins",
+                "an amplitude that goes on from where the step before ends",
+            )  # fmt: skip
+
+
+def _displacement(condition: Condition, step_time: float, total: float) -> float:
+    a = condition.amplitude
+    if a is None:
+        return condition.magnitude
+    now = total if a.total_time else step_time
+    value, _, _ = amplitude_at(a.times, a.values, a.integrals(), 0, a.times.size, a.smooth, 0, now)
+    return condition.magnitude * float(value) + 0.0  # no -0 in a message
 
 
 def _line(block: KeywordBlock) -> DataLine:

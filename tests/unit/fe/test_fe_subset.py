@@ -179,6 +179,24 @@ def test_step_time_amplitude_is_not_carried_into_the_next_step(tmp_path: Path) -
         read_model(written(tmp_path, text))
 
 
+@pytest.mark.parametrize(
+    ("curve", "fault"),
+    [("0., 1., 1e-5, 0.5", ""), ("0., 0., 1e-5, 1.", "jumps from -0.01 to 0"), ("0., 1., 1e-5, 2.", "")],
+    ids=["goes back", "starts at rest again", "goes on"],
+)
+def test_displacement_given_again_in_step_time_begins_where_the_step_before_ended(
+    tmp_path: Path, curve: str, fault: str
+) -> None:
+    """Values of a displacement are the mount's, not its change in the step: a curve from 0 would throw it back."""
+    text = GOOD.replace(", TIME=TOTAL TIME", "").replace("*BOUNDARY\n", f"*AMPLITUDE, NAME=B\n{curve}\n*BOUNDARY\n", 1)
+    text += "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-5\n*BOUNDARY, AMPLITUDE=B\nTOP, 3, 3, -0.01\n*END STEP\n"
+    if not fault:
+        assert read_model(written(tmp_path, text)).steps[1].conditions[(4, 3)].magnitude == -0.01
+        return
+    with pytest.raises(InputError, match=fault):
+        read_model(written(tmp_path, text))
+
+
 def test_conditions_and_contact_carry_over_to_the_next_step(tmp_path: Path) -> None:
     """A later condition on the same degree of freedom takes the place of the earlier one."""
     more = "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-5\n*BOUNDARY, TYPE=VELOCITY\nTOP, 3, 3, 2.\n*END STEP\n"
