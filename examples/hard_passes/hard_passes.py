@@ -83,14 +83,12 @@ def rows(case: Case, sizes: tuple[float, ...]) -> list[str]:
         )
         print(found[-1], flush=True)
     model = spring.run(case, "condensed")
-    scores = {
-        row.quantity: row.predicted for row in compare(result.history, model) if row.metric == "iso18571_r"
-    }
+    scores = {row.quantity: row.predicted for row in compare(result.history, model) if row.metric == "iso18571_r"}
     grades = f"{scores['normal_force']:.2f}, {scores['tangential_force']:.2f}"
     judged = within(forces(result.history), forces(model))
     if not usable:
         judged = "not judged"
-    wary = model.provenance.get("cautions", "")
+    wary = model.provenance.get("caution", "")
     cells = printed(forces(model), model).format(grades)
     found.append(f"| | | `condensed` | {cells} | | | | {judged}{'; ' + wary if wary else ''} |")
     print(found[-1], flush=True)
