@@ -65,10 +65,10 @@ def command(
                 f"peak normal force {rows[-1]['peak_normal_force_N']} N\n  {history.provenance['expected_error']}"
             )
     if one_file:
-        histories[0].write_csv(target)
+        histories[0].with_checksum().write_csv(target)
         return
     for one, history in zip(cases, histories, strict=True):
-        history.write_csv(target / f"{one.case_id}.csv")
+        history.with_checksum().write_csv(target / f"{one.case_id}.csv")
     if every:
         write_text(target / "summary.csv", summary_csv(rows))
     typer.echo(f"{len(cases)} cases of variant {variant} in {target}")

@@ -48,4 +48,4 @@ def run(case: Case, variant: str = "paper") -> History:
             "assumed": "; ".join(case.assumed()) or "none",
             **({"caution": "; ".join(wary)} if wary else {}),
         },
-    ).with_checksum()
+    )

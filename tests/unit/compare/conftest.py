@@ -67,7 +67,7 @@ class Workspace:
         rows = []
         place = self.folder / "spring" / "paper"
         for case in resolve_creep(load_study(self.study).cases()):
-            history = run(case)
+            history = run(case).with_checksum()
             history.write_csv(place / f"{case.case_id}.csv")
             rows.append(summary_row(case, history, "paper"))
         (place / "summary.csv").write_text(summary_csv(rows), encoding="utf-8")

@@ -36,8 +36,8 @@ def second_order_arrays(block: Block, shape: FreeShape, body: Body, poissons_rat
     near, share = neighbours(coarse, body)
     return {
         "gather": gathered(near, share, body.area, coarse.nodes_per_layer).T.astype(np.float32, order="C"),
-        "gradient": stretch.T.astype(np.float32, order="C"),
-        "spread": -np.linalg.solve(stiffness, loads.T).T.astype(np.float32, order="C"),
+        **_shorts("gradient", stretch.T),
+        **_shorts("spread", -np.linalg.solve(stiffness, loads.T).T),
         "near": near,
         "share": share,
         "bend": (bend @ _knots(coarse.knots, body.knots)).astype(np.float32),
@@ -48,7 +48,8 @@ def second_order_of(arrays: Arrays, body: Body, poissons_ratio: float) -> Second
     """Return the arrays as the kernels take them."""
     gather, gradient, spread, near, share = (arrays[name] for name in ("gather", "gradient", "spread", "near", "share"))
     lame, shear = lame_constants(1.0, poissons_ratio)
-    return SecondOrder(np.ascontiguousarray(body.face), gather, gradient, spread, near, share, lame, shear)
+    units = float(arrays["gradient_unit"][0]), float(arrays["spread_unit"][0])
+    return SecondOrder(np.ascontiguousarray(body.face), gather, gradient, spread, near, share, lame, shear, *units)
 
 
 def division(block: Block) -> BodySettings:
@@ -104,6 +105,12 @@ def gathered(near: NDArray[np.int64], share: Array, area: Array, count: int) -> 
     np.add.at(spread, (np.arange(area.size)[:, None], near), share)
     root = np.sqrt(area)
     return np.asarray(np.linalg.pinv(root[:, None] * spread) * root)
+
+
+def _shorts(name: str, matrix: Array) -> Arrays:
+    """Return a matrix as 16-bit numbers, and their unit."""
+    unit = float(np.abs(matrix).max()) / 32767.0
+    return {name: np.round(matrix / unit).astype(np.int16, order="C"), f"{name}_unit": np.array([unit])}
 
 
 def _solved(body: Body, poissons_ratio: float, given: Array, where: slice) -> Array:

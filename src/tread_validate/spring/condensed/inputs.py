@@ -11,6 +11,7 @@ from ..inputs import KernelLaw
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
+Shorts = NDArray[np.int16]
 Integers = NDArray[np.int64]
 
 FREE, STICK, SLIP = 0, 1, 2
@@ -45,29 +46,36 @@ class SecondOrder(NamedTuple):
         Displacements of the face's nodes -> those of the c nodes of a coarser face; one row a node of the face.
     gradient : (3 c, 9 e) array, 1/m
         Displacement gradients of e elements (component by component) for unit displacement of each of the coarser
-        face's; one row a displacement.
+        face's; one row a displacement, in units of `gradient_unit`.
     spread : (9 e, 3 c) array, m per (stress over E)
-        Displacements of the unloaded coarser face for unit stresses in the elements; one row a stress.
+        Displacements of the unloaded coarser face for unit stresses in the elements; one row a stress, in units of
+        `spread_unit`.
     near, share : (n, 4) arrays
         Coarser nodes around a node of the face, and their weights.
     lame, shear : float
         Lame's constants for E = 1.
+    gradient_unit, spread_unit : float
+        One step of the 16-bit numbers, 1/m and m: half the memory, and 1/65000 of the largest is far below what the
+        second order is known to.
     """
 
     free: Array
     gather: Singles
-    gradient: Singles
-    spread: Singles
+    gradient: Shorts
+    spread: Shorts
     near: Integers
     share: Array
     lame: float
     shear: float
+    gradient_unit: float
+    spread_unit: float
 
 
-_NONE = np.zeros((0, 0), dtype=np.float32)
+_NONE, _NO_SHORTS = np.zeros((0, 0), dtype=np.float32), np.zeros((0, 0), dtype=np.int16)
 SMALL_STRAIN = SecondOrder(
-    np.zeros((0, 3)), _NONE, _NONE, _NONE, np.zeros((0, 4), dtype=np.int64), np.zeros((0, 4)), 0.0, 0.0
-)
+    np.zeros((0, 3)), _NONE, _NO_SHORTS, _NO_SHORTS, np.zeros((0, 4), dtype=np.int64), np.zeros((0, 4)),
+    0.0, 0.0, 0.0, 0.0,
+)  # fmt: skip
 """Nothing of second order."""
 
 
@@ -181,6 +189,36 @@ class Scratch(NamedTuple):
     gradient: Singles
 
 
+class Fold(NamedTuple):
+    """Motions of a symmetric face that its symmetry keeps apart from all others: the even, or the odd ones.
+
+    Attributes
+    ----------
+    left, right : (k,) arrays of int
+        Degrees of freedom that move together; equal where one moves by itself.
+    own, other : (k,) arrays
+        What they do in unit motion, as a sum where they are equal: the motions are orthonormal.
+    """
+
+    left: Integers
+    right: Integers
+    own: Array
+    other: Array
+
+
+_EMPTY = np.zeros(0, dtype=np.int64)
+NO_FOLD = Fold(_EMPTY, _EMPTY, np.zeros(0), np.zeros(0))
+"""Of a face without symmetry."""
+
+
+class Operator(NamedTuple):
+    """Stiffness of a window for E = 1 Pa; for the whole of a symmetric face also that of its even and odd motions."""
+
+    whole: Singles
+    even: Singles
+    odd: Singles
+
+
 class Windows(NamedTuple):
     """Operators of windows of cells.
 
@@ -189,13 +227,17 @@ class Windows(NamedTuple):
     first : (cells + 1,) array of int
         First node of each cell, and n.
     offset : (cells, cells + 1) array of int
-        Where the operator of the cells a..b-1 begins in `pool`, at [a, b]; -1 where it is not there yet.
+        Where the operator of the cells a..b-1 begins in `pool`, at [a, b]; -1 where it is not there yet. Behind that
+        of all cells come the even and the odd part, where the face is symmetric.
     pool : (size,) array, N/m per Pa
+    even, odd : Fold
     """
 
     first: Integers
     offset: Integers
     pool: Singles
+    even: Fold = NO_FOLD
+    odd: Fold = NO_FOLD
 
 
 class Solver(NamedTuple):

@@ -9,6 +9,7 @@ import numpy as np
 from ...kernels import kernel
 from .contact import Tempo
 from .inputs import ROWS, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Windows
+from .products import operator_at
 from .second_order import follow_up, rest, shifted
 from .step import approach, hold, put, settle, widest
 
@@ -89,7 +90,7 @@ def take_step(
     a, b, sweeps = 0, 0, 0
     while True:
         begin, end = 0, 0
-        operator = windows.pool[:0].reshape(0, 0)
+        operator = operator_at(windows, 0, 0)
         if last > first:
             a, b = cells_of(scene.face.row, windows.first.size - 1, first, last)
             offset = windows.offset[a, b]
@@ -97,9 +98,8 @@ def take_step(
                 state.code[:] = work.before
                 return a, b, -1
             begin, end = windows.first[a], windows.first[b]
-            size = 3 * (end - begin)
-            operator = windows.pool[offset : offset + size * size].reshape(size, size)
-        sweeps += hold(operator, begin, end, scene, tempo, state, work)
+            operator = operator_at(windows, offset, 3 * (end - begin))
+        sweeps += hold(operator, windows, begin, end, scene, tempo, state, work)
         first, last = widest(pose, scene, state, tempo, begin, end, work)
         if first == begin and last == end:
             break

@@ -36,15 +36,22 @@ def motion(
     The block bends as its mount does; a rigid mount leaves the unloaded face as it is.
     """
     middle = 0.5 * path.columns.extent
-    at = path.at(middle, time)
-    origin = np.column_stack([at.x, at.y])
+    x, y, theta = _places(path, middle, time)
+    origin = np.column_stack([x, y])
     if path.line.ring_radius is not None:
-        return Course(time, np.asarray(at.theta), origin, body.face[None], np.zeros((1, 0), dtype=np.float32))
-    cosine, sine = np.cos(at.theta)[:, None], np.sin(at.theta)[:, None]
-    knots = path.at(middle - body.knots, time[:, None])
-    dx, dy = knots.x - at.x[:, None], knots.y - at.y[:, None]
+        return Course(time, theta, origin, body.face[None], np.zeros((1, 0), dtype=np.float32))
+    cosine, sine = np.cos(theta)[:, None], np.sin(theta)[:, None]
+    knots_x, knots_y, _ = _places(path, middle - body.knots, time[:, None])
+    dx, dy = knots_x - x[:, None], knots_y - y[:, None]
     free = shape.mount(body.knots, height)
     moved = np.hstack([cosine * dx + sine * dy - free[:, 0], cosine * dy - sine * dx - free[:, 1]])
-    bent = (moved @ follow.T).reshape(time.size, -1, 3)
+    unloaded = (moved @ follow.T).reshape(time.size, -1, 3)
+    unloaded += body.face
     gradients = moved.astype(np.float32) @ bend.T
-    return Course(time, np.asarray(at.theta), origin, body.face + bent, gradients)
+    return Course(time, theta, origin, unloaded, gradients)
+
+
+def _places(path: Path, s: Array | float, time: Array) -> tuple[Array, Array, Array]:
+    """Return x, y (m) and theta (rad) of the mount points of the columns at `s` (m) at `time` (s), broadcast."""
+    x, y, theta = path.mount(path.column_arc(s, time))
+    return x + path.columns.x_offset(s), y, theta

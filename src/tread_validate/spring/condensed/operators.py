@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from .body import Body
-from .inputs import ROWS, FaceNodes, Integers, Singles, Windows
+from .inputs import NO_FOLD, ROWS, FaceNodes, Integers, Singles, Windows
+from .symmetry import folded, folds
 
 Array = NDArray[np.float64]
 
@@ -45,7 +46,12 @@ class FaceOperators:
         if compliance is None:
             compliance = self._compliance.astype(np.float32)
         self.nodes = FaceNodes(body.area, row, compliance)
-        self.windows = Windows(first, np.full((cells, cells + 1), -1, dtype=np.int64), np.zeros(0, dtype=np.float32))
+        self.windows = Windows(
+            first,
+            np.full((cells, cells + 1), -1, dtype=np.int64),
+            np.zeros(0, dtype=np.float32),
+            *(folds(body) or (NO_FOLD, NO_FOLD)),
+        )
         self._used = 0
 
     @cached_property
@@ -67,20 +73,24 @@ class FaceOperators:
 
     def learn(self, offset: Integers, pool: Singles) -> None:
         """Take over the operators that `known` returned."""
-        self.windows = Windows(self.windows.first, offset, pool)
+        self.windows = self.windows._replace(offset=offset, pool=pool)
         self._used = pool.size
 
     def add(self, a: int, b: int) -> None:
         """Make the operator of the cells a..b-1."""
-        first, offset, pool = self.windows
+        first, offset, pool, even, odd = self.windows
         begin, end = 3 * int(first[a]), 3 * int(first[b])
-        size = (end - begin) ** 2
-        if self._used + size > pool.size:
-            pool = np.concatenate([pool[: self._used], np.zeros(max(size, self._used), dtype=np.float32)])
-        pool[self._used : self._used + size] = self._operator(begin, end).astype(np.float32).ravel()
+        whole = self._operator(begin, end)
+        parts = [whole]
+        if even.left.size + odd.left.size == end - begin:
+            parts += [folded(whole, even), folded(whole, odd)]
+        made = np.concatenate([part.astype(np.float32).ravel() for part in parts])
+        if self._used + made.size > pool.size:
+            pool = np.concatenate([pool[: self._used], np.zeros(max(made.size, self._used), dtype=np.float32)])
+        pool[self._used : self._used + made.size] = made
         offset[a, b] = self._used
-        self._used += size
-        self.windows = Windows(first, offset, pool)
+        self._used += made.size
+        self.windows = self.windows._replace(offset=offset, pool=pool)
 
     def _operator(self, begin: int, end: int) -> Array:
         whole = self._stiffness.shape[0]

@@ -12,7 +12,8 @@ import numpy as np
 
 from ...kernels import kernel
 from .contact import ContactNodes, Tempo, solve_contact
-from .inputs import FREE, STICK, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Solid
+from .inputs import FREE, STICK, Array, FaceState, Integers, Operator, Pose, Scene, Scratch, Singles, Solid, Windows
+from .products import loads
 
 SUNK = 1e-9
 """A node outside the window that stands deeper in the road than this (m) asks for a wider window."""
@@ -93,7 +94,16 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
 
 
 @kernel()
-def hold(operator: Singles, begin: int, end: int, scene: Scene, tempo: Tempo, state: FaceState, work: Scratch) -> int:
+def hold(
+    operator: Operator,
+    windows: Windows,
+    begin: int,
+    end: int,
+    scene: Scene,
+    tempo: Tempo,
+    state: FaceState,
+    work: Scratch,
+) -> int:
     """Solve the contact of the nodes begin..end with the window's `operator`; return the number of sweeps.
 
     Nodes outside are free of force, and their q follows from the forces.
@@ -109,13 +119,13 @@ def hold(operator: Singles, begin: int, end: int, scene: Scene, tempo: Tempo, st
     if end > begin:
         q = work.q[begin:end]
         force = state.force[begin:end]
-        _product(operator, q.ravel().astype(np.float32), force)
+        loads(operator, windows.even, windows.odd, q.ravel(), force.ravel())
         area = scene.face.area[begin:end]
         codes = state.code[begin:end]
         nodes = ContactNodes(
             q, force, work.target[begin:end], work.normal[begin:end], area, work.before[begin:end], codes
         )
-        sweeps = solve_contact(operator, nodes, tempo, scene.law, scene.solver, state.scale[0])
+        sweeps = solve_contact(operator.whole, nodes, tempo, scene.law, scene.solver, state.scale[0])
         for i in range(begin, end):
             if state.code[i] == FREE:
                 state.force[i] = 0.0
@@ -189,17 +199,6 @@ def _fade(memory: Array, decay: float, weight: float, rate: Array) -> None:
     flat, flow = memory.ravel(), rate.ravel()
     for i in range(flat.size):
         flat[i] = decay * flat[i] + weight * flow[i]
-
-
-@kernel(reorder=True)
-def _product(matrix: Singles, vector: Singles, out: Array) -> None:
-    flat = out.ravel()
-    for i in range(flat.size):
-        row = matrix[i]
-        total = np.float32(0.0)
-        for j in range(vector.size):
-            total += row[j] * vector[j]
-        flat[i] = total
 
 
 @kernel()
