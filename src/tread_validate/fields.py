@@ -35,9 +35,17 @@ class Label:
 
 @dataclass(frozen=True)
 class WhereGiven:
-    """Marks an optional field that counts only where it is given: without it a case is what it was before the key."""
+    """Marks an optional field that counts only where it is given: without it a case is what it was before the key.
+
+    Attributes
+    ----------
+    why : str
+    absent : str or None
+        Value of a case that does not use the field.
+    """
 
     why: str
+    absent: str | None = None
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,6 @@ IGNORED = {
     "TRS": "time would not be reduced",
     "FIXED MASS SCALING": "there is no mass in a quasi-static run",
     "VARIABLE MASS SCALING": "there is no mass in a quasi-static run",
-    "HYPERELASTIC": "only *ELASTIC is translated",
     "EXPANSION": "temperatures are not translated",
     "EQUATION": "constraint equations are not translated",
     "TIE": "ties are not translated",
@@ -45,9 +44,12 @@ DROPPED = {
     "END STEP": "",
 }
 READ = {
-    "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "RIGID BODY", "AMPLITUDE", "MATERIAL", "ELASTIC", "SOLID SECTION",
-    "SURFACE INTERACTION", "FRICTION", "INITIAL CONDITIONS", "BOUNDARY", "STEP", "DYNAMIC", "CONTACT PAIR",
+    "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "RIGID BODY", "AMPLITUDE", "MATERIAL", "ELASTIC", "HYPERELASTIC",
+    "SOLID SECTION", "SURFACE INTERACTION", "FRICTION", "INITIAL CONDITIONS", "BOUNDARY", "STEP", "DYNAMIC",
+    "CONTACT PAIR",
 }  # fmt: skip
+KINDS = ("C3D8R", "C3D8")
+MEAN_VOLUME = "the one mean volume change of a C3D8 (CalculiX integrates it at eight points, and locks near nu = 0.5)"
 NODE_LINE = "a node number and x, y, z"
 COULOMB_ROUTINE = re.compile(r"^\s+fricmu\s*=\s*props\(2\)\s*$", re.MULTILINE)
 
@@ -62,7 +64,9 @@ class ElasticDeck:
     nodes : mapping of node number to (x, y, z)
         Of the block only.
     elements : (n, 9) int array
-        Number and the eight nodes, C3D8R.
+        Number and the eight nodes.
+    kind : str
+        C3D8R or C3D8.
     face : tuple of (element set's elements, face label)
         The contact face.
     mount : mapping of row number to node numbers
@@ -72,6 +76,8 @@ class ElasticDeck:
     wheel_radius : float or None
         None for a plane road.
     young, poisson, friction : float
+    neo_hookean : bool
+        Whether the deck itself asks for the neo-Hookean law.
     durations : tuple of float, s
     symmetry : tuple of int
         Nodes on the plane of symmetry of a deck that models half a block; empty for a whole one.
@@ -93,6 +99,8 @@ class ElasticDeck:
     durations: tuple[float, ...]
     dropped: tuple[str, ...] = field(default=())
     symmetry: tuple[int, ...] = field(default=())
+    kind: str = "C3D8R"
+    neo_hookean: bool = False
 
 
 def read_elastic_deck(path: Path | str, user: Path | str | None = None) -> ElasticDeck:
@@ -115,12 +123,15 @@ def read_elastic_deck(path: Path | str, user: Path | str | None = None) -> Elast
     sets = _sets(deck)
     numbers, places = _block_nodes(deck)
     elements, face = _elements(deck, sets)
+    kind = _kind(deck)
+    if kind == "C3D8":
+        dropped = (*dropped, MEAN_VOLUME)
     used = set(elements[:, 1:].ravel().tolist())
     missing = used - set(numbers)
     if missing:
         raise InputError(f"{deck.path}: *ELEMENT", f"node {min(missing)}", "nodes that *NODE defines")
     mount, motions, road, radius = read_motions(deck, sets, dict(zip(numbers, places, strict=True)))
-    young, poisson = _elastic(deck)
+    young, poisson, neo_hookean = _elastic(deck)
     return ElasticDeck(
         case_id=_case_id(deck),
         nodes={n: p for n, p in zip(numbers, places, strict=True) if n in used},
@@ -136,6 +147,8 @@ def read_elastic_deck(path: Path | str, user: Path | str | None = None) -> Elast
         durations=tuple(b.data[0].number_at(1, "a duration, s") for b in deck.named("DYNAMIC") if b.data),
         dropped=dropped,
         symmetry=sets[PLANE] if is_half(deck) else (),
+        kind=kind,
+        neo_hookean=neo_hookean,
     )
 
 
@@ -201,8 +214,6 @@ def _block_nodes(deck: Deck) -> tuple[list[int], list[tuple[float, float, float]
 def _elements(deck: Deck, sets: dict[str, tuple[int, ...]]) -> tuple[NDArray[np.int64], tuple[tuple[int, ...], str]]:
     rows = []
     for block in deck.named("ELEMENT"):
-        if block.value("TYPE") != "C3D8R":
-            raise InputError(f"{block.where}: *ELEMENT, TYPE", block.value("TYPE"), "C3D8R")
         rows.append(_rows(block))
     if not rows:
         raise InputError(deck.path, "no *ELEMENT", "a meshed block")
@@ -215,12 +226,31 @@ def _elements(deck: Deck, sets: dict[str, tuple[int, ...]]) -> tuple[NDArray[np.
     raise InputError(deck.path, "no element-based contact face", "*SURFACE, TYPE=ELEMENT with one set and face")
 
 
-def _elastic(deck: Deck) -> tuple[float, float]:
-    blocks = [block for block in deck.named("ELASTIC") if block.data]
+def _kind(deck: Deck) -> str:
+    """Return the one type of the deck's elements."""
+    kinds = {block.value("TYPE"): block for block in deck.named("ELEMENT")}
+    for kind, block in kinds.items():
+        if kind not in KINDS or len(kinds) > 1:
+            found = ", ".join(kinds) if len(kinds) > 1 else kind
+            raise InputError(f"{block.where}: *ELEMENT, TYPE", found, f"one of {', '.join(KINDS)}, for all elements")
+    return next(iter(kinds))
+
+
+def _elastic(deck: Deck) -> tuple[float, float, bool]:
+    """Return Young's modulus and Poisson's ratio at no strain, and whether the law is neo-Hookean."""
+    blocks = [block for block in deck.named("ELASTIC", "HYPERELASTIC") if block.data]
     if len(blocks) != 1 or len(blocks[0].data) != 1:
         raise InputError(f"{deck.path}: *ELASTIC", f"{len(blocks)} of them", "one material with one line")
-    line = blocks[0].data[0]
-    return line.number_at(0, "a modulus"), line.number_at(1, "Poisson's ratio")
+    block, line = blocks[0], blocks[0].data[0]
+    if block.keyword == "ELASTIC":
+        return line.number_at(0, "a modulus"), line.number_at(1, "Poisson's ratio"), False
+    c10, d1 = line.number_at(0, "C10"), line.number_at(1, "D1", 0.0)
+    if "NEO HOOKE" not in block.parameters or not c10 > 0.0 or not d1 > 0.0:
+        where = f"{line.where}: *HYPERELASTIC"
+        raise InputError(where, ", ".join([*block.parameters, line.text]), "NEO HOOKE with C10 > 0 and D1 > 0")
+    shear, bulk = 2.0 * c10, 2.0 / d1
+    poisson = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+    return 2.0 * shear * (1.0 + poisson), poisson, True
 
 
 def _friction(deck: Deck, user: Path | str | None) -> float:

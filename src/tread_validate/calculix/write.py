@@ -54,7 +54,7 @@ def dialect(deck: ElasticDeck, resolution: Resolution | None = None) -> str:
     road_nodes, road_elements = _road(deck, rows, choice)
     lines: list[str] = ["*HEADING", deck.case_id, "*NODE, NSET=BLOCK_NODES"]
     lines += [f"{n}, {x:.10g}, {y:.10g}, {z:.10g}" for n, (x, y, z) in deck.nodes.items()]
-    lines.append("*ELEMENT, TYPE=C3D8R, ELSET=BLOCK")
+    lines.append(f"*ELEMENT, TYPE={deck.kind}, ELSET=BLOCK")
     lines += [", ".join(str(v) for v in row) for row in deck.elements.tolist()]
     lines.append("*NODE, NSET=ROAD_NODES")
     lines += [f"{base + i}, {x:.10g}, {y:.10g}, {z:.10g}" for i, (x, y, z) in enumerate(road_nodes)]

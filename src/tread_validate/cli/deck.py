@@ -45,7 +45,7 @@ def command(
     Example: tread-validate deck config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm
     """
     from .. import deck
-    from ..deck.sections import EMBEDDED_HOURGLASS, hourglass_note
+    from ..deck.compound import EMBEDDED_HOURGLASS, hourglass_note
     from ..errors import InputError
     from ..study import load_study, with_mesh
     from ..units import IN_MS
@@ -66,7 +66,7 @@ def command(
     mesh = {"element_size_mm": element_size, "layers": layers}
     for one in (with_mesh(one, {key: value for key, value in mesh.items() if value is not None}) for one in cases):
         written = deck.write(one, output / one.case_id, single_file=single_file, general_contact=general_contact)
-        if one.deck.hourglass not in EMBEDDED_HOURGLASS:
+        if one.deck.element == "C3D8R" and one.deck.hourglass not in EMBEDDED_HOURGLASS:
             typer.echo(hourglass_note(one.deck.hourglass), err=True)
         typer.echo(
             f"{output / one.case_id}: {written.elements.shape[0]} elements, pass {IN_MS * written.pass_time:.4g} ms"

@@ -20,6 +20,7 @@ from ..study import Case
 from ..units import DECK_LENGTH, DECK_UNITS
 from . import sections
 from .block_mesh import BlockMesh
+from .compound import material
 from .form import Form
 from .inputs import Inputs, inputs_of
 from .keywords import comment
@@ -112,8 +113,8 @@ def build(case: Case, *, single_file: bool = False, general_contact: bool = Fals
     form = Form(single_file)
     before = [
         *_opening(case, form, inputs),
-        *sections.mesh(form, mesh, placement, case.block_name, bool(tables)),
-        *sections.material(case),
+        *sections.mesh(form, mesh, placement, case.block_name, bool(tables), case.deck.element),
+        *material(case),
         *sections.road(form, inputs, path, placement),
         *(sections.ring(path) if case.path.mount_is_rigid else ()),
     ]

@@ -14,11 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry import Path
-from ..material import prony_series
-from ..material.time_shift import told
-from ..material.wlf import referred_to
-from ..study import Case, Wlf
-from ..units import DECK_DENSITY, DECK_LENGTH, DECK_STRESS, US
+from ..study import Case
+from ..units import DECK_DENSITY, DECK_LENGTH
 from .block_mesh import BlockMesh
 from .form import Form
 from .inputs import Inputs
@@ -31,7 +28,7 @@ FloatArray = NDArray[np.float64]
 ROAD_NODE, RING_NODE = 9000001, 9000002  # beyond any block's nodes (see mesh.MOST_ELEMENTS)
 ROAD_MARGIN = 50.0  # mm of plane beyond the block's reach
 INTERACTION = "TREAD_ROAD"
-EMBEDDED_HOURGLASS = ("STIFFNESS", "RELAX STIFFNESS")
+INTEGRATION = {"C3D8R": "one integration point", "C3D8": "eight integration points and one mean volume change"}
 SYMMETRY = "SYMMETRY_PLANE"
 """Node set of the plane of symmetry: a deck that has it models half the block, and its forces count twice."""
 
@@ -39,9 +36,9 @@ SYMMETRY = "SYMMETRY_PLANE"
 class _Keyed:
     """Arguments of `_mesh_lines`, equal where their numbers are: cases of one block share its text."""
 
-    def __init__(self, block: BlockMesh, points: FloatArray, rows: bool, decimals: int) -> None:
-        self.given = (block, points, rows, decimals)
-        total = hashlib.sha256(f"{rows} {decimals} {points.shape}".encode())
+    def __init__(self, block: BlockMesh, points: FloatArray, rows: bool, element: str, decimals: int) -> None:
+        self.given = (block, points, rows, element, decimals)
+        total = hashlib.sha256(f"{rows} {element} {decimals} {points.shape}".encode())
         for array in (points, block.s, block.u, block.elements, block.symmetry_nodes):
             total.update(np.ascontiguousarray(array).tobytes())
         self.key = total.digest()
@@ -53,21 +50,23 @@ class _Keyed:
         return isinstance(other, _Keyed) and self.key == other.key
 
 
-def mesh_lines(block: BlockMesh, points: FloatArray, rows: bool, decimals: int = 5) -> tuple[str, ...]:
+def mesh_lines(
+    block: BlockMesh, points: FloatArray, rows: bool, element: str = "C3D8R", decimals: int = 5
+) -> tuple[str, ...]:
     """Nodes, elements, sets and the contact surface; with `rows`, a node set for each row of mount nodes."""
-    return _mesh_lines(_Keyed(block, points, rows, decimals))
+    return _mesh_lines(_Keyed(block, points, rows, element, decimals))
 
 
 @lru_cache(maxsize=8)
 def _mesh_lines(keyed: _Keyed) -> tuple[str, ...]:
-    block, points, rows, decimals = keyed.given
+    block, points, rows, kind, decimals = keyed.given
     node = np.arange(1, points.shape[0] + 1)
     element = np.arange(1, block.elements.shape[0] + 1)
     lines = [
-        comment("Block: hexahedra with one integration point, nodes 1-4 of each towards the road; mm"),
+        comment(f"Block: hexahedra with {INTEGRATION[kind]}, nodes 1-4 of each towards the road; mm"),
         keyword("NODE", NSET="BLOCK_NODES"),
         table([node, *points.T], ["%d", *[f"%.{decimals}f"] * 3]),
-        keyword("ELEMENT", TYPE="C3D8R", ELSET="BLOCK"),
+        keyword("ELEMENT", TYPE=kind, ELSET="BLOCK"),
         table([element, *(block.elements.T + 1)], ["%d"] * 9),
     ]
     sets = {"MOUNT": block.mount_nodes, "FACE_NODES": block.face_nodes}
@@ -93,10 +92,13 @@ def mount_place(block: BlockMesh) -> FloatArray:
     return np.asarray(np.round(block.s[block.mount_nodes], 9), dtype=np.float64)
 
 
-def mesh(form: Form, block: BlockMesh, placement: Placement, block_name: str, rows: bool) -> list[str]:
+def mesh(
+    form: Form, block: BlockMesh, placement: Placement, block_name: str, rows: bool, element: str = "C3D8R"
+) -> list[str]:
     """Put the block where it starts: from a file in its own frame, or with its nodes in place."""
     if form.single_file:
-        return list(mesh_lines(block, np.round(placement.placed(placement.written), 8) + 0.0, rows, decimals=8))
+        placed = np.round(placement.placed(placement.written), 8) + 0.0
+        return list(mesh_lines(block, placed, rows, element, decimals=8))
     x, y = placement.origin.tolist()
     c, s = 100.0 * math.cos(placement.angle), 100.0 * math.sin(placement.angle)
     return [
@@ -105,56 +107,10 @@ def mesh(form: Form, block: BlockMesh, placement: Placement, block_name: str, ro
         keyword("SYSTEM"),
         f"{x:.9f}, {y:.9f}, 0., {x + c:.9f}, {y + s:.9f}, 0.",
         f"{x - s:.9f}, {y + c:.9f}, 0.",
-        *form.include(f"mesh-{block_name}", mesh_lines(block, placement.written, rows)),
+        *form.include(f"mesh-{block_name}", mesh_lines(block, placement.written, rows, element)),
         comment("From here on in the frame of the axle again"),
         keyword("SYSTEM"),
     ]
-
-
-def hourglass_note(kind: str) -> str:
-    """Return what a user of an hourglass control that the embedded engine does not have must know."""
-    return f"The embedded engine does not run HOURGLASS={kind} (it knows {', '.join(EMBEDDED_HOURGLASS)}); ABAQUS does"
-
-
-def material(case: Case) -> list[str]:
-    """Section and compound: instantaneous moduli, Prony series of one ratio for shear and bulk, time shift."""
-    compound = case.compound
-    series = prony_series(compound, case.root)
-    ratios = series.moduli / series.instantaneous_modulus
-    law = compound.time_shift
-    if not isinstance(law, Wlf):  # no *TRS of its own: the times stand as they are at the run's temperature
-        series = series.at_temperature(case.temperature, law)
-    lines = [] if case.deck.hourglass in EMBEDDED_HOURGLASS else [comment(hourglass_note(case.deck.hourglass))]
-    lines += [
-        keyword("SECTION CONTROLS", NAME="BLOCK_CONTROLS", HOURGLASS=case.deck.hourglass),
-        keyword("SOLID SECTION", ELSET="BLOCK", MATERIAL="COMPOUND", CONTROLS="BLOCK_CONTROLS"),
-        ",",
-        keyword("MATERIAL", NAME="COMPOUND"),
-        keyword("DENSITY"),
-        number(compound.density_kg_m3 * DECK_DENSITY) + ",",
-        keyword("ELASTIC", MODULI="INSTANTANEOUS"),
-        f"{number(series.instantaneous_modulus * DECK_STRESS, 10)}, {number(compound.poissons_ratio)}",
-    ]
-    if case.deck.stiffness_damping_us > 0.0:
-        lines += [
-            comment(
-                "Loss above the band of the Prony series, without which sliding rubber flutters at mesh frequencies"
-            ),
-            keyword("DAMPING", BETA=number(case.deck.stiffness_damping_us * US)),
-        ]
-    if ratios.size:
-        lines += [
-            comment("g_i, k_i, tau_i: constant Poisson's ratio means one ratio for shear and bulk"),
-            keyword("VISCOELASTIC", TIME="PRONY"),
-            table([ratios, ratios, series.relaxation_times], ["%.10g", "%.10g", "%.9g"]),
-        ]
-        if isinstance(law, Wlf):
-            c1, c2 = referred_to(law, series.reference_temperature)
-            lines += [keyword("TRS"), f"{number(series.reference_temperature)}, {number(c1)}, {number(c2)}"]
-        else:
-            lines.append(comment(f"tau_i at {case.temperature:g} degC, shifted by {told(law)}; another temperature"))
-            lines.append(comment("needs a deck of its own"))
-    return lines
 
 
 def road(form: Form, inputs: Inputs, path: Path, placement: Placement) -> list[str]:

@@ -33,6 +33,10 @@ def cautions(case: Case, variant: str) -> tuple[str, ...]:
         found.append(f"interference {100 * depth:.0f} % of the height: small strains end at {100 * DEEP:.0f} %")
     if nu > INCOMPRESSIBLE:
         found.append(f"Poisson's ratio {nu:g}: compared with FE up to {INCOMPRESSIBLE:g}")
+    if case.compound.elasticity != "linear":
+        found.append(
+            f"linear viscoelastic; decks of this compound are neo-Hookean: N 1 % lower at D/h 0.04, 2 % at {DEEP:g}"
+        )
     bend = abs(float(path.line.curvature(path.first_contact_arc)))
     if bend * case.height * SHARP > 1.0:
         found.append(f"path radius {1.0 / bend / MM:.3g} mm below {SHARP:g} times the block's height")

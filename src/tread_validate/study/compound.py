@@ -20,6 +20,13 @@ class CompoundBase(Sourced):
     shift: Annotated[OtherShift | None, WhereGiven("shifts are by `wlf` without it")] = Field(
         None, description="shift of times by Arrhenius or a table, in place of `wlf`"
     )
+    elasticity: Annotated[
+        Literal["linear", "neo_hooke"], WhereGiven("rubber was linear viscoelastic before the key", "linear")
+    ] = Field(
+        "linear",
+        description="what the finite element decks make of the instantaneous moduli: linear in logarithmic strain, or "
+        "neo-Hookean with the same moduli at small strain; spring models are linear either way",
+    )
     data_temperature_degC: FiniteFloat = Field(22.0, description="temperature that the relaxation times refer to, degC")
 
     @model_validator(mode="after")

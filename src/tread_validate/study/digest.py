@@ -58,7 +58,7 @@ def _decisive(owner: Any, root: Path, solvers: tuple[str, ...]) -> Iterator[tupl
             isinstance(mark, Label) or (isinstance(mark, Numerics) and mark.solver not in solvers) for mark in found
         ):
             continue
-        if value is None and any(isinstance(mark, WhereGiven) for mark in found):
+        if any(isinstance(mark, WhereGiven) and value == mark.absent for mark in found):
             continue
         if value is not None and any(isinstance(mark, DataFile) for mark in found):
             yield name, _file(root / value)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, FiniteFloat, field_validator
 
-from ..fields import Label, Line, Name, NonNegative, Positive, Strict
+from ..fields import Label, Line, Name, NonNegative, Positive, Strict, WhereGiven
 from ..model_names import current_name
 
 
@@ -47,6 +47,11 @@ class DeckSettings(Strict):
     layers: Annotated[int, Field(ge=2, le=64)] = Field(8, description="elements over the block's height")
     refinement: Annotated[FiniteFloat, Field(ge=1, le=10)] = Field(
         1.5, description="height of the layer at the mount over that of the layer at the contact face"
+    )
+    element: Annotated[Literal["C3D8R", "C3D8"], WhereGiven("decks had one-point hexahedra only", "C3D8R")] = Field(
+        "C3D8R",
+        description="hexahedra with one integration point and hourglass control, or with eight (C3D8): no hourglass "
+        "mode and no artificial energy, at some eight times the run time in the embedded engine",
     )
     hourglass: Literal["RELAX STIFFNESS", "STIFFNESS", "VISCOUS", "ENHANCED", "COMBINED"] = "STIFFNESS"
     bulk_viscosity: tuple[NonNegative, NonNegative] = (0.06, 1.2)

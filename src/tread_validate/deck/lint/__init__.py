@@ -21,7 +21,7 @@ from .syntax import check_syntax
 __all__ = ["FORMATS", "Dialect", "Finding", "LintRule", "catalogue", "find_rule", "formatted", "lint"]
 
 Dialect = Literal["abaqus", "calculix"]
-LAST_COUNTS = frozenset({"duplicate-name", "two-sections"})
+LAST_COUNTS = frozenset({"duplicate-name", "two-laws", "two-sections"})
 """Rules about what is given twice: CalculiX goes on with the later one."""
 
 

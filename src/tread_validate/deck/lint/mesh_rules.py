@@ -11,10 +11,10 @@ from ...inp import Deck, KeywordBlock
 from ...inp.sets import sorted_labels
 from . import elements as kinds
 from .findings import Findings
+from .material_rules import check_material
 from .mesh_tables import ElementTable
 from .names import Names
-from .syntax import is_number, number
-from .table import LAWS, SECTION_KEYWORDS
+from .table import SECTION_KEYWORDS
 
 MOST = 5
 """Findings of one rule at most in one element block; the last says how many more there are."""
@@ -31,7 +31,7 @@ def check_mesh(deck: Deck, names: Names, findings: Findings) -> None:
     _check_element_nodes(names, findings)
     used = check_sections(deck, names, findings)
     for name, block in names.named.get("MATERIAL", {}).items():
-        _check_material(deck, names, name, block, name in used, findings)
+        check_material(deck, names, name, block, name in used, findings)
 
 
 def _check_element_nodes(names: Names, findings: Findings) -> None:
@@ -173,72 +173,3 @@ def _check_bare(names: Names, covered: NDArray[np.int64], stiff: NDArray[np.int6
             more = f" (and {bare.size - 1} more)" if bare.size > 1 else ""
             text = f"element {names.shown(part.ids[bare[0]])} has no section{more}"
             findings.add(part.line(int(bare[0])), "no-section", text)
-
-
-def _check_material(deck: Deck, names: Names, name: str, block: KeywordBlock, used: bool, findings: Findings) -> None:
-    options = _options(deck, block)
-    if names.explicit and used and "DENSITY" not in options and not names.gaps:
-        findings.add(block, "no-density", f"material {name} has no *DENSITY, which *DYNAMIC, EXPLICIT needs")
-    if used and names.mechanical and not LAWS & set(options) and not names.gaps and not _unknown(options):
-        findings.add(block, "no-stiffness", f"material {name} has no *ELASTIC or *HYPERELASTIC")
-    isotropic = "ELASTIC" in options and (options["ELASTIC"].parameters.get("TYPE") or "ISOTROPIC") == "ISOTROPIC"
-    for keyword in ("DENSITY", *(("ELASTIC",) if isotropic else ())):
-        for line in options[keyword].data[:1] if keyword in options else ():
-            value = line.fields[0]
-            if is_number(value) and number(value) <= 0.0 and (keyword == "ELASTIC" or names.explicit):
-                findings.add(line, "material-value", f"*{keyword} {value}: expected > 0")
-    if isotropic:
-        for line in options["ELASTIC"].data:
-            ratio = line.fields[1] if len(line.fields) > 1 else "0"
-            if not is_number(ratio):
-                continue
-            nu = number(ratio)
-            if nu <= -1.0 or nu > 0.5 or (nu == 0.5 and names.explicit):
-                findings.add(line, "material-value", f"Poisson's ratio {ratio}: expected more than -1, less than 0.5")
-    if "VISCOELASTIC" in options:
-        _check_prony(options["VISCOELASTIC"], findings)
-        given = any(one.parameters.get("TYPE") == "TEMPERATURE" for one in deck.named("INITIAL CONDITIONS"))
-        if "TRS" in options and not given and not names.gaps and next(deck.named("TEMPERATURE"), None) is None:
-            findings.add(options["TRS"], "no-temperature", "*TRS without *INITIAL CONDITIONS, TYPE=TEMPERATURE")
-
-
-def _unknown(options: dict[str, KeywordBlock]) -> bool:
-    """Whether a material has an option that may be a law of its own (known by name only, or not at all)."""
-    from ...inp.vocabulary import keywords
-
-    known = keywords()
-    return any(word not in known or known[word].open for word in options)
-
-
-def _options(deck: Deck, material: KeywordBlock) -> dict[str, KeywordBlock]:
-    """Return the options of a material, by keyword."""
-    from ...inp.vocabulary import keywords
-
-    known = keywords()
-    found: dict[str, KeywordBlock] = {}
-    start = deck.blocks.index(material)
-    for block in deck.blocks[start + 1 :]:
-        entry = known.get(block.keyword)
-        if entry is not None and not entry.parents:
-            break
-        found.setdefault(block.keyword, block)
-    return found
-
-
-def _check_prony(block: KeywordBlock, findings: Findings) -> None:
-    if block.parameters.get("TIME") != "PRONY":
-        return
-    shear = bulk = 0.0
-    for line in block.data:
-        fields = line.fields
-        if not 1 <= len(fields) <= 3 or not all(is_number(text) for text in fields if text):
-            if not 1 <= len(fields) <= 3:
-                findings.add(line, "field-count", f"Prony term: {len(fields)} fields, expected g, k, tau")
-            continue
-        g, k, tau = (number(text) if text else 0.0 for text in (*fields, "", "")[:3])
-        if g < 0.0 or k < 0.0 or tau <= 0.0:
-            findings.add(line, "prony", f"Prony term {line.text}: expected g >= 0, k >= 0, tau > 0")
-        shear, bulk = shear + g, bulk + k
-    if len(block.data) and (shear >= 1.0 or bulk >= 1.0):
-        ratio = max(shear, bulk)
-        findings.add(block, "prony", f"Prony ratios add up to {ratio:.6g}: expected less than 1, or nothing is left")
