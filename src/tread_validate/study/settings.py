@@ -51,7 +51,7 @@ class DeckSettings(Strict):
     element: Annotated[Literal["C3D8R", "C3D8"], WhereGiven("decks had one-point hexahedra only", "C3D8R")] = Field(
         "C3D8R",
         description="hexahedra with one integration point and hourglass control, or with eight (C3D8): no hourglass "
-        "mode and no artificial energy, at some eight times the run time in the embedded engine",
+        "mode and no artificial energy, at 5 to 16 times the run time in the embedded engine",
     )
     hourglass: Literal["RELAX STIFFNESS", "STIFFNESS", "VISCOUS", "ENHANCED", "COMBINED"] = "STIFFNESS"
     bulk_viscosity: tuple[NonNegative, NonNegative] = (0.06, 1.2)
