@@ -104,7 +104,7 @@ def _derived(
             Value("road_rate", -rate / below, "big wheel about z, rad/s", f"-speed*(1. + creep_ratio)/{radius}"),
             Value("road_y", -below, "height of the big wheel's axle, mm", f"lift - {radius}"),
         ]  # fmt: skip
-    if path.road.is_plane:
+    if path.line.ring_radius is None:
         vx, vy = placement.velocity.tolist()
         values += [
             Value("start_x", float(number(vx)), "x velocity of the leading row at first, mm/s", f"{number(vx)}*pace"),

@@ -120,7 +120,7 @@ def build(case: Case, *, single_file: bool = False, general_contact: bool = Fals
     ]
     after = [
         *sections.initial_conditions(form, inputs, case, path, placement),
-        *sections.fixed_supports(case, mesh),
+        *sections.fixed_supports(case, path, mesh),
     ]
     pair = steps(form, inputs, case, path, tables, general_contact=False)
     constant = general = None

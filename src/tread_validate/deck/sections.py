@@ -225,9 +225,9 @@ def initial_conditions(form: Form, inputs: Inputs, case: Case, path: Path, place
     return lines
 
 
-def fixed_supports(case: Case, block: BlockMesh) -> list[str]:
+def fixed_supports(case: Case, path: Path, block: BlockMesh) -> list[str]:
     """Build the degrees of freedom that never move."""
-    free = 1 if not case.path.mount_is_rigid else 6
+    free = road_freedom(path)
     lines = [keyword("BOUNDARY")]
     lines += [f"ROAD_REF, {first}, {last}" for first, last in ((1, free - 1), (free + 1, 6)) if first <= last]
     lines.append("RING_REF, 1, 5" if case.path.mount_is_rigid else "MOUNT, 3, 3")
