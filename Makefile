@@ -10,7 +10,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 REPLACE ?= 0
 TRUST_MODELS ?= 0
-SNAKEMAKE := sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) trust_models=$(TRUST_MODELS) --profile workflow/profiles/default --cores $(CORES)
+SNAKEMAKE = sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) trust_models=$(TRUST_MODELS) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
 .PHONY: help report check map test lint verify reference mesh-study hierarchy bench docs test-pythons test-cluster test-robustness clean
@@ -61,10 +61,12 @@ bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory
 	@for file in $(filter-out benchmarks/material_pyvisco.py,$(wildcard benchmarks/*.py)); do echo "== $$file"; $(BIN)/python $$file || exit 1; done
 
 # its pages tell the paper's study and name its cases; the report of another study is its own page
+docs: ASKED := $(STUDY)
 docs: override STUDY := config/study.yaml
 docs: $(BIN)/.installed-dev report ## Build the guide (of the paper's study, whatever STUDY is), links checked: build/docs/index.html
 	@$(BIN)/python docs/generate.py
 	@$(BIN)/mkdocs build --strict --quiet
+	@[ "$(ASKED)" = "$(STUDY)" ] || echo "The guide is that of $(STUDY): its pages name that study's cases. $(ASKED) has a report: make report"
 	@echo "The guide: build/docs/index.html"
 
 test-pythons: $(BIN)/.installed-dev system-packages ## The small study on every other Python found (3.11 to 3.13): same decks, tables within noise

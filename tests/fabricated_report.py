@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from tread_validate.compare.binding import write_provenance
 from tread_validate.compare.tables import TABLES
 from tread_validate.history import History
 from tread_validate.source_code import code_digest
@@ -86,7 +87,7 @@ def fabricate(folder: Path) -> Fabricated:
         "inputs": {"study.yaml": "f" * 64},
         "sources": {REFERENCE: {"current": len(cases) - 2, "missing": 1, "stale": 1}},
     }
-    (places.tables / "provenance.json").write_text(json.dumps(provenance), encoding="utf-8")
+    write_provenance(places.tables, provenance)
     return places
 
 

@@ -85,7 +85,9 @@ def main() -> int:
             f"{'as it was' if back else 'NOT as it was'}.\n\n"
             "| Part | File | The line after the change | Caught | What the check said |\n|---|---|---|---|---|\n"
         )
-        choice.output.write_text(head + "".join(f"{row}\n" for row, _ in found), encoding="utf-8")
+        old = choice.output.read_text(encoding="utf-8") if choice.output.is_file() else ""
+        second = "".join(old.partition("\n## A second list")[1:])  # tried with more variants: kept as it stands
+        choice.output.write_text(head + "".join(f"{row}\n" for row, _ in found) + second, encoding="utf-8")
     return 0 if caught == len(found) and back else 1
 
 

@@ -72,3 +72,14 @@ def test_workflow_catalog_metadata_names_a_profile_that_exists(root):
     usage = yaml.safe_load((root / ".snakemake-workflow-catalog.yml").read_text(encoding="utf-8"))["usage"]
     profile = Path(usage["mandatory-flags"]["flags"].split()[-1])
     assert (root / profile / "config.yaml").is_file()
+
+
+def test_docs_of_another_study_run_the_papers_study_throughout(root):
+    """`make docs STUDY=...` builds the guide of the paper's study, and says so: no command of it is given the other."""
+    told = subprocess.run(
+        ["make", "-n", "docs", "STUDY=mine.yaml"], cwd=root, capture_output=True, text=True, check=True
+    )
+    lines = told.stdout.splitlines()
+    assert any("snakemake --config study=config/study.yaml" in line for line in lines)
+    assert any("tread-validate assessment config/study.yaml" in line for line in lines)
+    assert all(line.startswith("[ ") for line in lines if "mine.yaml" in line)

@@ -1,4 +1,4 @@
-"""Are tables those of today's study and code?"""
+"""Are tables those of today's study and code, and as they were written?"""
 
 from __future__ import annotations
 
@@ -8,11 +8,21 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..files import read_text
+from ..files import read_text, write_text
+from ..mending import mended_by
+from ..provenance import sha256_file
 from ..source_code import code_digest
 from ..study import LoadedStudy
 
 PROVENANCE = "provenance.json"
+LATER = ("delta.csv",)
+"""Written beside the tables by `check`, from them."""
+
+
+def write_provenance(tables: Path, facts: Mapping[str, Any]) -> None:
+    """Write what tables were made from, with the digest of each of them; they are all there by now."""
+    digests = {path.stem: sha256_file(path) for path in sorted(tables.glob("*.csv")) if path.name not in LATER}
+    write_text(tables / PROVENANCE, json.dumps({**facts, "tables": digests}, indent=2, sort_keys=True) + "\n")
 
 
 def read_provenance(tables: Path) -> dict[str, Any]:
@@ -21,9 +31,10 @@ def read_provenance(tables: Path) -> dict[str, Any]:
     try:
         data = json.loads(read_text(file))
     except ValueError as error:
-        raise InputError(file, error, "JSON (make the tables anew: tread-validate tables)") from None
-    if not isinstance(data, dict) or not isinstance(data.get("code"), dict) or not isinstance(data.get("study"), str):
-        raise InputError(file, "an older format", "study and code (make the tables anew: tread-validate tables)")
+        raise InputError(file, error, "JSON") from None
+    kinds = {"code": dict, "study": str, "tables": dict}
+    if not isinstance(data, dict) or not all(isinstance(data.get(key), kind) for key, kind in kinds.items()):
+        raise InputError(file, "an older format", "study, code and digests of the tables")
     return data
 
 
@@ -33,21 +44,27 @@ def todays_tables(tables: Path, study: LoadedStudy | None = None) -> Mapping[str
     Raises
     ------
     InputError
-        Tables of another study, of another state of it, or made by other code.
+        Tables of another study, of another state of it, made by other code, or altered since they were written.
     """
+    with mended_by(f"tread-validate tables {'STUDY' if study is None else study.source}"):
+        return _checked(tables, study)
+
+
+def _checked(tables: Path, study: LoadedStudy | None) -> Mapping[str, Any]:
     data = read_provenance(tables)
     file = tables / PROVENANCE
     today = code_digest("compare")
     made_by = str(data["code"].get("compare"))
     if made_by != today:
-        raise InputError(
-            f"{file}: code of the comparison", made_by, f"{today} (run: make check, or tread-validate tables)"
-        )
+        raise InputError(f"{file}: code of the comparison", made_by, today)
     if study is not None:
         for key, mine in (("study", study.model.name), ("study_digest", study.digest)):
             if data.get(key) != mine:
                 found = str(data.get(key))[:16]
-                raise InputError(
-                    f"{file}: {key}", found, f"{mine[:16]}, that of {study.source} (tread-validate tables)"
-                )
+                raise InputError(f"{file}: {key}", found, f"{mine[:16]}, that of {study.source}")
+    for name, digest in data["tables"].items():
+        table = tables / f"{name}.csv"
+        found = sha256_file(table) if table.is_file() else "no file"
+        if found != digest:
+            raise InputError(table, found[:16], f"{str(digest)[:16]}, the digest that it was written with")
     return data

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 from ..files import read_text, write_text
 from ..reference.published import PUBLISHED
 from ..study import load_study
+from .binding import write_provenance
 from .expected_errors import expected_rows
 from .provenance import assumed_inputs, provenance
 from .regression.line import EXCLUDED_INTERFERENCES
@@ -53,7 +53,7 @@ def build_tables(
     reference_dir : path
         The reference data package.
     out_dir : path
-        Takes the tables; each is written atomically, ``errors.csv`` last.
+        Takes the tables; each is written atomically, ``provenance.json`` with their digests after them.
     decks_dir : path
         Holds ``<case_id>/<case_id>.inp`` and ``vfric.f``: a reference run is current when its record names the digest
         of these. Without them every reference run is stale.
@@ -83,7 +83,7 @@ def write_tables(found: StudyComparison, reference_dir: Path, out_dir: Path) -> 
     write_rows(out_dir, ExpectedRow, expected_rows(found.cases, found.runs, found.sources))
     write_text(out_dir / "published.csv", read_text(reference_dir / PUBLISHED))
     facts = provenance(found.study, found.cases, found.runs, found.sources, reference_dir)
-    write_text(out_dir / "provenance.json", json.dumps(facts, indent=2, sort_keys=True) + "\n")
     write_rows(out_dir, MetricRow, found.rows)
+    write_provenance(out_dir, facts)
     write_package(out_dir, found.study.model.name, str(facts["commit"]))
     write_summary(out_dir, found.study.model.name)

@@ -15,6 +15,8 @@ from ..study import Case
 from .quantities import Scalars, Statistics, scalars, statistics
 from .scores.uncertainty import Uncertainty, from_mesh_error
 
+MEND = "(mend: delete it, then make check)"
+
 
 @dataclass(frozen=True)
 class SourceRun:
@@ -103,7 +105,7 @@ def _spring_run(source: str, case: Case, path: Path) -> SourceRun:
     try:
         history = History.read_csv(path)
     except InputError as error:
-        return SourceRun(source, case.case_id, "corrupt", one_line(f"{path.name}: {error.found}"))
+        return SourceRun(source, case.case_id, "corrupt", one_line(f"{path.name}: {error.found} {MEND}"))
     digest = history.digest()
     status, note = _binding(history, digest, case, source.partition(":")[2])
     run = SourceRun(source, case.case_id, status, note, digest=digest)
@@ -128,7 +130,8 @@ def altered(history: History, digest: str) -> tuple[str, str]:
     if written is None:
         return "unbound", f"no {CHECKSUM} in its header: nobody knows whether its numbers are those of the run"
     if written != digest:
-        return "corrupt", f"altered or cut off since it was written ({CHECKSUM} {written[:12]}, now {digest[:12]})"
+        found = f"{CHECKSUM} {written[:12]}, now {digest[:12]}"
+        return "corrupt", f"altered or cut off since it was written ({found}) {MEND}"
     return "current", ""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import hashlib
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -90,7 +91,7 @@ def _block(file: Path, name: str) -> tuple[str, ...]:
         data = gzip.decompress(file.read_bytes())
     except FileNotFoundError:
         raise InputError(file, "no such file", "the block that a filed deck names") from None
-    except (OSError, EOFError) as error:
+    except (OSError, EOFError, zlib.error) as error:
         raise InputError(file, error, "a block compressed by gzip") from None
     if hashlib.sha256(data).hexdigest() != name:
         raise InputError(file, "another content", f"content with SHA-256 {name[:12]}...")

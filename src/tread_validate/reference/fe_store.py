@@ -16,6 +16,7 @@ from typing import Any, Literal
 from ..errors import InputError, one_line
 from ..history import History
 from ..inp import DeckFiles, Problem, agree, differences
+from ..mending import mended_by
 from ..provenance import sha256_file
 from ..source_code import PARTS, UNKNOWN, code_digest
 from ..yaml_text import read_mapping
@@ -152,9 +153,12 @@ class FeStore:
         if today is None or not today.deck.is_file():
             if not named:
                 return Reference(case_id, engine, "missing", "no run of this engine")
-            return self._bad(named[0], case_id, engine, "stale", "no deck at hand to hold the run against")
+            return self._bad(
+                named[0], case_id, engine, "stale", "no deck at hand to hold the run against (tread-validate deck)"
+            )
         try:
-            entry = self._equal(engine, today)
+            with mended_by("tread-validate deck STUDY --all"):
+                entry = self._equal(engine, today)
         except InputError as error:
             return Reference(case_id, engine, "corrupt", one_line(str(error)))
         if entry is not None:
@@ -263,6 +267,8 @@ class FeStore:
         return Entry(folder, record)
 
     def _bad(self, entry: Entry, case_id: str, engine: str, status: Status, reason: str) -> Reference:
+        if status == "corrupt":
+            reason = f"{entry.folder.name}: {reason} (mend: git checkout, or delete the folder and make reference)"
         return Reference(case_id, engine, status, one_line(reason), record=entry.record, folder=entry.folder)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import subprocess
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -19,6 +20,7 @@ from tread_validate.compare.baseline.movement import movements
 from tread_validate.compare.baseline.output import delta_csv, delta_junit, delta_markdown, summary
 from tread_validate.compare.baseline.store import Acceptance, load_baseline, save_baseline
 from tread_validate.compare.baseline.trend import read_trend
+from tread_validate.compare.binding import write_provenance
 from tread_validate.compare.tables import Delta, MetricRow, PeakRow, TableRow, read_rows, write_rows
 from tread_validate.errors import InputError
 
@@ -42,6 +44,7 @@ def changed(folder: Path, kind: type[TableRow], which: dict[str, Any], **values:
         rows.append(row)
     assert count
     write_rows(folder, kind, rows)
+    write_provenance(folder, json.loads((folder / "provenance.json").read_text(encoding="utf-8")))
     return count
 
 
@@ -284,6 +287,33 @@ def test_a_model_that_iterates_has_wider_noise(copy: Any, baseline: Path) -> Non
     check = check_tables(load_baseline(baseline), copy.tables)
     assert not check.failed
     assert len(check.deltas) == 1
+
+
+@pytest.mark.parametrize("verb", ["check", "accept", "assessment", "report"])
+@pytest.mark.parametrize("damage", ["lines", "gone"])
+def test_a_table_that_is_not_as_it_was_written_is_refused(
+    verb: str, damage: str, copy: Any, baseline: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Half of its rows lost, or the file: one line with the file and the command that makes it anew."""
+    path = copy.tables / "ensemble.csv"
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    path.unlink()
+    if damage == "lines":
+        path.write_text("".join(lines[: len(lines) // 2]), encoding="utf-8")
+    before = {file: file.read_bytes() for file in baseline.iterdir()}
+    tables, study = str(copy.tables), str(copy.study)
+    command = {
+        "check": ["check", tables, "--baseline", str(baseline)],
+        "accept": ["accept", tables, "--baseline", str(baseline), "--reason", "a good reason", "--allow-dirty"],
+        "assessment": ["assessment", study, "--tables", tables, "--reports", str(copy.folder / "reports")],
+        "report": ["report", study, "--tables", tables, "-o", str(copy.folder / "page")],
+    }[verb]
+    assert tread_validate(command) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "ensemble.csv: got " in said
+    assert "(mend: tread-validate tables " in said
+    assert {file: file.read_bytes() for file in baseline.iterdir()} == before
 
 
 def test_tables_of_another_study_are_refused(copy: Any, baseline: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -169,7 +169,7 @@ def test_a_run_made_before_the_engine_s_code_changed_is_marked(tmp_path: Path) -
     "how",
     [
         "no record", "no history", "edited", "cut", "not YAML", "a list", "another case", "binary", "another engine",
-        "no digest", "no deck", "no block", "deck edited", "block edited",
+        "no digest", "no deck", "no block", "deck edited", "block edited", "block garbled",
     ],
 )  # fmt: skip
 def test_what_cannot_be_trusted_is_corrupt(how: str, store: Path, tmp_path: Path) -> None:
@@ -201,6 +201,9 @@ def test_what_cannot_be_trusted_is_corrupt(how: str, store: Path, tmp_path: Path
     elif how == "block edited":
         (block,) = (store / "fe" / "blocks").iterdir()
         block.write_bytes(gzip.compress(b"1,2,3"))
+    elif how == "block garbled":
+        (block,) = (store / "fe" / "blocks").iterdir()
+        block.write_bytes(block.read_bytes()[:12] + b"\xff" * 40)
     else:
         key, value = {
             "another case": ("case_id", "case-b"),
@@ -212,7 +215,7 @@ def test_what_cannot_be_trusted_is_corrupt(how: str, store: Path, tmp_path: Path
     found = FeStore(store).find("embedded", "case-a", deck(tmp_path / "b"))
     assert found.status == "corrupt"
     assert found.history is None
-    assert found.reason
+    assert "make reference" in found.reason
     assert "\n" not in found.reason
     assert dict(FeStore(store).check())[f"fe/embedded/{folder.name}"].startswith("corrupt")
 

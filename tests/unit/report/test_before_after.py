@@ -13,6 +13,7 @@ import pytest
 
 from tread_validate.compare.baseline.histories import HISTORIES, SAMPLES, accepted_histories, histories_text
 from tread_validate.compare.baseline.store import RECORD, Acceptance, save_baseline
+from tread_validate.compare.binding import write_provenance
 from tread_validate.compare.thinned import unpack
 from tread_validate.errors import InputError
 from tread_validate.report import build_report
@@ -32,6 +33,7 @@ def moved(inputs: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
     row = errors.index[(errors["quantity"] == "peak_normal_force") & (errors["error"] != "")][0]
     errors.loc[row, "error"] = "-0.5"
     errors.to_csv(tables / "errors.csv", index=False, lineterminator="\n")
+    write_provenance(tables, json.loads((tables / "provenance.json").read_text(encoding="utf-8")))
     from tread_validate.cli.app import run
 
     assert run(["check", str(tables), "--baseline", str(out / "baseline"), "-o", str(folder / "d.csv")]) == 1

@@ -12,6 +12,7 @@ from typing import Any
 
 from ...errors import InputError
 from ...files import read_text, write_text
+from ...mending import mended_by
 from ...provenance import sha256_text
 from ...yaml_text import read_mapping, write_yaml
 from ..quantities import SCALARS, Noise
@@ -93,6 +94,11 @@ def load_baseline(folder: Path | str) -> Baseline:
     place = Path(folder)
     if not (place / RECORD).is_file():
         raise InputError(place / RECORD, "no such file", "a baseline; `tread-validate accept` makes one")
+    with mended_by(f"git checkout {place}, or tread-validate accept"):
+        return _load(place)
+
+
+def _load(place: Path) -> Baseline:
     record = _record(place / RECORD)
     tables = {}
     for name, facts in record["tables"].items():
