@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from .amplitude import Amplitude
-from .kernel_data import Amplitudes, Bodies, Loads, Prescribed
+from .kernel_data import FIXED, Amplitudes, Bodies, Loads, Prescribed
 from .model import Model
-from .steps import FIXED, Condition, Step
+from .steps import Condition, Step
 
 Floats = NDArray[np.float64]
 

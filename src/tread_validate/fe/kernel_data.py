@@ -11,6 +11,7 @@ CLOCK_ROWS = 5
 EXTERNAL, FRICTION, IMPACT = range(3)
 WORK_SUMS = 3
 OPEN, STICKS, SLIPS = 0, 1, 2  # state of a slave node
+FIXED, VELOCITY, DISPLACEMENT = 0, 1, 2  # kind of a prescribed degree of freedom
 NO_FRICTION, COULOMB, USER = 0, 1, 2  # kind of an interaction
 
 

@@ -10,6 +10,7 @@ from ..kernels import kernel
 from .amplitude import amplitude_at
 from .contact_kernel import nodal_normals
 from .element_kernel import LANES
+from .kernel_data import FIXED, VELOCITY
 
 
 @kernel()
@@ -52,9 +53,9 @@ def evaluate_amplitudes(amp_row, amp_time, amp_value, amp_area, amp_smooth, amp_
 @kernel()
 def prescribed_value(kind, magnitude, amplitude, start, area_start, step_time, value, area):  # type: ignore[no-untyped-def]  # numba types it
     """Return the displacement a condition asks for: held, integral of a velocity (exact), or a displacement."""
-    if kind == 0:
+    if kind == FIXED:
         return start
-    if kind == 1:
+    if kind == VELOCITY:
         if amplitude < 0:
             return start + magnitude * step_time
         return start + magnitude * (area[amplitude] - area_start)

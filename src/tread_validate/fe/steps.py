@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..inp import DataLine, KeywordBlock
 from .amplitude import Amplitude, amplitude_at
+from .kernel_data import DISPLACEMENT, FIXED, VELOCITY
 from .loads import Load, read_loads
 from .mesh import Mesh
 
 Ints = NDArray[np.int64]
-FIXED, VELOCITY, DISPLACEMENT = 0, 1, 2
 HISTORY_VARIABLES = ("U", "V", "RF")
 NAMED_CONDITIONS = {
     "ENCASTRE": (1, 2, 3, 4, 5, 6),

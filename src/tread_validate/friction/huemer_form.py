@@ -57,9 +57,10 @@ c
       end
 """
 
+CODE = 1
 HUEMER = LawForm(
     "huemer",
-    1,
+    CODE,
     {
         "alpha": "MPa^(1-n)",
         "beta": "1",

@@ -6,9 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels import kernel
+from .huemer_form import CODE as HUEMER
+from .huemer_form import huemer_kernel
+from .laws.coulomb import CODE as COULOMB
 from .laws.coulomb import coulomb_kernel
-from .laws.huemer import huemer_kernel
+from .laws.power import CODE as POWER
 from .laws.power import power_kernel
+from .laws.table import CODE as TABLE
 from .laws.table import table_kernel
 
 Array = NDArray[np.float64]
@@ -31,12 +35,12 @@ def kinetic_kernel(
     pressure, slip_speed : float, Pa and m/s
         Only the size of the slip speed matters.
     """
-    if code == 0:
+    if code == COULOMB:
         return coulomb_kernel(parameters, pressures, slip_speeds, table, pressure, slip_speed)
-    if code == 1:
+    if code == HUEMER:
         return huemer_kernel(parameters, pressures, slip_speeds, table, pressure, slip_speed)
-    if code == 2:
+    if code == TABLE:
         return table_kernel(parameters, pressures, slip_speeds, table, pressure, slip_speed)
-    if code == 3:
+    if code == POWER:
         return power_kernel(parameters, pressures, slip_speeds, table, pressure, slip_speed)
     return np.nan

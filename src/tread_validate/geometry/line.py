@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 EMPTY_TABLE = np.zeros((1, 4))
+ARC_FLAT_ARC, WHEEL, TABULATED, DOWN_AND_UP = 0, 1, 2, 3  # codes of lines, never used twice
 
 
 class MountLine(Protocol):
@@ -22,7 +23,7 @@ class MountLine(Protocol):
 
     @property
     def code(self) -> int:
-        """0: arc, flat, arc; 1: wheel; 2: table; 3: straight down and up."""
+        """By which compiled kernels know the line: `ARC_FLAT_ARC`, `WHEEL`, `TABULATED`, `DOWN_AND_UP`, ..."""
 
     @property
     def parameters(self) -> Array:
@@ -30,7 +31,7 @@ class MountLine(Protocol):
 
     @property
     def table(self) -> Array:
-        """Table (n, 4) of x, y, theta, curvature at equal arc steps for code 2, else a dummy."""
+        """Table (n, 4) of x, y, theta, curvature at equal arc steps of a `TABULATED` line, else a dummy."""
 
     @property
     def speed_ratio(self) -> float:
@@ -82,7 +83,7 @@ class ArcFlatArc(_Tangential):
     patch_length: float
     edge_radius: float
     patch_height: float
-    code: int = 0
+    code: int = ARC_FLAT_ARC
     speed_ratio: float = 1.0
 
     @property
@@ -131,7 +132,7 @@ class WheelLine(_Tangential):
     surface_radius: float
     mount_radius: float
     axle_height: float
-    code: int = 1
+    code: int = WHEEL
 
     @property
     def parameters(self) -> Array:
@@ -183,7 +184,7 @@ class TabulatedLine(_Tangential):
     first_arc: float
     step: float
     table: Array = field(repr=False)
-    code: int = 2
+    code: int = TABULATED
     speed_ratio: float = 1.0
 
     @property

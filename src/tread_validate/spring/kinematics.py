@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import math
 
+from ..geometry.line import ARC_FLAT_ARC, DOWN_AND_UP, WHEEL
 from ..kernels import kernel
 from .inputs import Motion
 
+BETWEEN_POSES = 4  # beside the codes of the paths' own lines: an even motion from one pose to the next
 MountPoint = tuple[float, float, float, float, float, float]
 
 
@@ -22,7 +24,7 @@ def mount_point(motion: Motion, arc: float) -> MountPoint:
 
     x, y (m), sin and cos of theta, d theta/dt (rad/s), and the speed along the neutral line, towards the road (m/s).
     """
-    if motion.code == 0:
+    if motion.code == ARC_FLAT_ARC:
         half, radius, height = motion.parameters[0], motion.parameters[1], motion.parameters[2]
         flat = min(max(arc, -half), half)
         if -half <= arc < half:
@@ -30,14 +32,14 @@ def mount_point(motion: Motion, arc: float) -> MountPoint:
         theta = (arc - flat) / radius
         sine, cosine = math.sin(theta), math.cos(theta)
         return flat + radius * sine, height + radius * (1.0 - cosine), sine, cosine, motion.speed / radius, 0.0
-    if motion.code == 1:
+    if motion.code == WHEEL:
         surface, mount, axle = motion.parameters[0], motion.parameters[1], motion.parameters[2]
         theta = arc / surface
         sine, cosine = math.sin(theta), math.cos(theta)
         return mount * sine, axle - mount * cosine, sine, cosine, motion.speed / surface, 0.0
-    if motion.code == 4:
+    if motion.code == BETWEEN_POSES:
         return _turned_mount_point(motion, arc)
-    if motion.code == 3:
+    if motion.code == DOWN_AND_UP:
         return _pressed_mount(motion, arc)
     return _table_mount(motion, arc)
 

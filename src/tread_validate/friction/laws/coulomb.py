@@ -40,7 +40,8 @@ c     neither pressure (MPa) nor slip speed (mm/s) enters
       end
 """
 
-COULOMB = LawForm("coulomb", 0, {"kinetic_coefficient": "1"}, coulomb_kernel, FORTRAN, 1, limit="kinetic")
+CODE = 0
+COULOMB = LawForm("coulomb", CODE, {"kinetic_coefficient": "1"}, coulomb_kernel, FORTRAN, 1, limit="kinetic")
 
 
 def _may_lack_static(schema: dict[str, Any]) -> None:

@@ -48,9 +48,10 @@ c     the contact pressure (MPa) does not enter
       end
 """
 
+CODE = 3
 POWER = LawForm(
     "power",
-    3,
+    CODE,
     {
         "reference_coefficient": "1",
         "reference_slip_speed": SLIP_SPEED,

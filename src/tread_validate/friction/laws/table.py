@@ -95,7 +95,8 @@ c
       end
 """
 
-TABLE = LawForm("table", 2, {}, table_kernel, FORTRAN, 0)
+CODE = 2
+TABLE = LawForm("table", CODE, {}, table_kernel, FORTRAN, 0)
 
 
 class FrictionTable(FrictionEntry):

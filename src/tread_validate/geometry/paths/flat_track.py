@@ -15,7 +15,7 @@ from ...fields import Positive
 from ...units import IN_MM, IN_MS, MS
 from ..block import block_profile
 from ..columns import Columns
-from ..line import EMPTY_TABLE
+from ..line import DOWN_AND_UP, EMPTY_TABLE
 from ..path import Path
 from ..path_entry import Conditions, Family, PathEntry, Sketch, check_interference
 from ..road import Road
@@ -43,7 +43,7 @@ class DownAndUp:
     pressed: float
     released: float
     left: float
-    code: int = 3
+    code: int = DOWN_AND_UP
     speed_ratio: float = 0.0
     ring_radius: float | None = None
 

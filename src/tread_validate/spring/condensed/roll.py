@@ -15,7 +15,7 @@ from ...study import Case
 from ..inputs import KernelLaw
 from ..rubber import law_of, series_of
 from .body import Body, BodySettings, fitted
-from .inputs import SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
+from .inputs import SLIP, SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
 from .march import Course, Record, march, pose_at, start
 from .motion import free_shape, motion
 from .operators import FaceOperators
@@ -104,7 +104,9 @@ class FacePass:
     def slipping_fraction(self) -> Array:
         """Slipping over touching area, 0..1."""
         touching = (self.state > 0) @ self.body.area
-        return np.asarray(np.where(touching > 0, (self.state == 2) @ self.body.area / np.maximum(touching, 1e-30), 0.0))
+        return np.asarray(
+            np.where(touching > 0, (self.state == SLIP) @ self.body.area / np.maximum(touching, 1e-30), 0.0)
+        )
 
 
 def roll(
