@@ -104,7 +104,7 @@ def collect(
     )
     balance = energy_balance(energies)
     scatter = unsteadiness(history.normal_force, history.tangential_force)
-    chatter = alternation(np.array(s.slip_state), np.array(s.pressure, dtype=np.float64))
+    chatter = alternation(np.array(s.slip_state), *(np.array(x, dtype=np.float64) for x in (s.pressure, s.traction)))
     pressure = max((float(sample.max()) for sample in s.pressure if sample.size), default=0.0)
     told = {
         **record,

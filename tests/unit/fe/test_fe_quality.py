@@ -55,14 +55,18 @@ def test_scatter_of_white_noise_is_its_standard_deviation_and_of_a_straight_line
     assert unsteadiness(normal, np.linspace(0.0, 50.0, 20_000)) < 1e-12
 
 
-def test_a_node_that_changes_and_stays_does_not_alternate_and_one_that_turns_back_at_once_does() -> None:
-    """Four nodes under one pressure: one slips and stays so, one comes down slipping and goes, one chatters on each of
-    the eight inner samples, one rests: 8 of the 33 loads."""
-    states = np.array([[1] * 4 + [2] * 6, [0] * 4 + [2] * 3 + [0] * 3, [1, 2] * 5, [1] * 10], dtype=np.int8).T
-    pressures = (states > 0).astype(np.float64)
-    assert alternation(states, pressures) == pytest.approx(8.0 / 33.0)
-    assert alternation(states[:2], pressures[:2]) == 0.0
-    assert alternation(states, 0.0 * pressures) == 0.0
+def test_short_sticks_between_slips_are_told_with_what_they_leave_out_of_t() -> None:
+    """Three nodes under unit pressure, 10 samples, traction 0.5 where they slip: one slips and then sticks to stay, one
+    slips all along, one sticks at two samples at 0.1 in between. It lacks 0.8 of what all carry, 14.2; the other
+    way round alike."""
+    states = np.array([[2] * 5 + [1] * 5, [2] * 10, [2] * 4 + [1] * 2 + [2] * 4], dtype=np.int8).T
+    pressures = np.ones((10, 3))
+    tractions = np.zeros((10, 3, 3))
+    tractions[:, :, 0] = np.where(states == 2, 0.5, np.array([0.5, 0.0, 0.1]))
+    assert alternation(states, pressures, tractions) == pytest.approx(0.8 / 14.2)
+    assert alternation(states, pressures, -tractions) == pytest.approx(0.8 / 14.2)
+    assert alternation(states[:, :2], pressures[:, :2], tractions[:, :2]) == 0.0
+    assert alternation(states, pressures, 0.0 * tractions) == 0.0
 
 
 def test_normal_is_the_axis_nearest_to_the_forces_of_the_road() -> None:

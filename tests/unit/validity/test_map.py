@@ -116,7 +116,7 @@ def test_a_refused_point_is_none(cases):
         {"residual_6": 0.02},
         {"artificial_6": 0.03},
         {"unsteadiness_6": 0.01},
-        {"alternation_6": 0.01},
+        {"alternation_6": 0.03},
         {"fe_6": {"normal": 90.0}},
         {},
     ],

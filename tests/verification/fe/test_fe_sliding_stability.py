@@ -89,7 +89,10 @@ def ratio(simulation: Simulation) -> float:
 
 
 def chatter(simulation: Simulation) -> float:
-    return alternation(np.array(simulation.samples.slip_state), np.array(simulation.samples.pressure, dtype=float))
+    samples = simulation.samples
+    return alternation(
+        np.array(samples.slip_state), np.array(samples.pressure, dtype=float), np.array(samples.traction, dtype=float)
+    )
 
 
 @pytest.mark.parametrize(
