@@ -101,7 +101,7 @@ SUBSET: dict[str, Keyword] = {
         },
     ),
     "NODE OUTPUT": Keyword("step", {"NSET": ANY, "VARIABLE": ANY}),
-    "ELEMENT OUTPUT": Keyword("step", {"ELSET": ANY, "VARIABLE": ANY}),
+    "ELEMENT OUTPUT": Keyword("step", {"ELSET": ANY, "VARIABLE": ANY, "DIRECTIONS": ("YES", "NO")}),
     "CONTACT OUTPUT": Keyword("step", {"CPSET": ANY, "VARIABLE": ANY, "SURFACE": ANY, "SECOND SURFACE": ANY}),
     "ENERGY OUTPUT": Keyword("step", {"ELSET": ANY, "VARIABLE": ANY}),
     "RESTART": Keyword("step", {"WRITE": ANY, "NUMBER INTERVAL": ANY, "TIME MARKS": ANY}, ("WRITE",)),

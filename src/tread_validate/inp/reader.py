@@ -11,12 +11,13 @@ import re
 from array import array
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..errors import InputError
 from .assembly import resolve
-from .deck import Deck, KeywordBlock, Lines, label, split_commas
+from .continuation import goes_on
+from .deck import Deck, label, split_commas
+from .open_block import OpenBlock
 from .parameters import Value, assign, substitute
 from .source import MOST_BYTES, read_lines
 from .vocabulary import keyword_name, parameter_name, value_name
@@ -31,12 +32,17 @@ LABELS = frozenset({
 VERBATIM = frozenset({"HEADING", "PARAMETER"})
 """Keywords whose data lines are text in which ``<name>`` stays as it is."""
 
+HARMLESS = frozenset({"trailing-comma"})
+"""Rules about what can be read in one way only."""
+
 Report = Callable[[str, str, object, str], None]
 """Takes a rule, a place, what was found and what was expected."""
 
 
 def stop(rule: str, where: str, found: object, expected: str) -> None:
     """Raise `InputError`: the report of readers that go no further than the first fault."""
+    if rule in HARMLESS:
+        return
     raise InputError(where, found, expected)
 
 
@@ -74,48 +80,13 @@ def read_deck(path: Path | str, report: Report = stop) -> Deck:
     return Deck(source, blocks, text, written, reader.parameters, tuple(reader.gaps), instances, files)
 
 
-@dataclass
-class _Open:
-    """A block still being read."""
-
-    keyword: str
-    parameters: dict[str, str | None]
-    raw: dict[str, str]
-    file: str
-    line: int
-    files: str | list[str] = ""
-    numbers: Sequence[int] = ()
-    texts: list[str] = field(default_factory=list)
-
-    def extend(self, file: str, numbers: Sequence[int], texts: list[str]) -> None:
-        """Append data lines; the numbers stay a range and the file one as long as they are."""
-        if not self.texts:
-            self.files, self.numbers, self.texts = file, numbers, texts
-            return
-        if self.files != file:
-            before = self.files if isinstance(self.files, list) else [self.files] * len(self.texts)
-            self.files = before + [file] * len(texts)
-        joined = array("I", self.numbers)
-        joined.extend(numbers)
-        self.numbers = joined
-        self.texts += texts
-
-    def closed(self) -> KeywordBlock:
-        """Return the finished block; a factor of 1 on an amplitude is left out, as the same deck without it reads."""
-        for name in ("SCALEX", "SCALEY"):
-            if self.keyword == "AMPLITUDE" and self.parameters.get(name) in ("1", "1.", "1.0"):
-                del self.parameters[name]
-        data = Lines(self.files or self.file, self.numbers, self.texts)
-        return KeywordBlock(self.keyword, self.parameters, data, self.file, self.line, self.raw)
-
-
 class _Reader:
     """Collects blocks from a file and its includes."""
 
     def __init__(self, folder: Path, report: Report) -> None:
         self.folder = folder
         self.report = report
-        self.blocks: list[_Open] = []
+        self.blocks: list[OpenBlock] = []
         self.text: list[list[str]] = []
         self.parameters: dict[str, Value] = {}
         self.gaps: list[str] = []
@@ -144,7 +115,7 @@ class _Reader:
                 row += 1
                 continue
             first = row
-            stripped, row = _continued(lines, row, name)
+            stripped, row = self._continued(lines, row, name)
             if marked and "<" in stripped:
                 stripped = self._substituted(stripped, f"{name}:{first + 1}")
             block = _parse_keyword(stripped, name, first + 1)
@@ -154,6 +125,24 @@ class _Reader:
                 self.blocks.append(block)
                 if block.raw.get("INPUT"):
                     self._input(block, path)
+
+    def _continued(self, lines: list[str], row: int, name: str) -> tuple[str, int]:
+        """Return a keyword line with the lines that it goes on in, and the row after them."""
+        stripped, first = lines[row].strip(), row
+        row += 1
+        while stripped.endswith(","):
+            ahead = row
+            while ahead < len(lines) and (not lines[ahead].strip() or lines[ahead].strip().startswith("**")):
+                ahead += 1
+            following = lines[ahead].strip() if ahead < len(lines) else ""
+            keyword = keyword_name(" ".join(split_commas(stripped[1:])[0].upper().split()))
+            if not goes_on(keyword, following):
+                where = f"{name}:{first + 1}: *{keyword}"
+                self.report("trailing-comma", where, "a comma at the end", "parameters in the next line, or no comma")
+                break
+            stripped += following
+            row = ahead + 1
+        return stripped, row
 
     def _data(self, lines: list[str], first: int, last: int, name: str, marked: bool) -> None:
         """Append data lines `first` to `last` - 1 (from 0) to the block that is open."""
@@ -176,7 +165,7 @@ class _Reader:
             ]
         block.extend(name, numbers, texts)
 
-    def _assign(self, block: _Open, numbers: Sequence[int], texts: list[str], name: str) -> None:
+    def _assign(self, block: OpenBlock, numbers: Sequence[int], texts: list[str], name: str) -> None:
         if "TABLE" in block.parameters:
             self.report("parameter", f"{block.file}:{block.line}", "*PARAMETER, TABLE", "name = expression")
             self.gaps.append("*PARAMETER, TABLE")
@@ -196,7 +185,7 @@ class _Reader:
                 self.report("parameter", where, f"<{error.args[0]}>", "a name that *PARAMETER defines before")
             return text
 
-    def _target(self, block: _Open, path: Path, above: tuple[Path, ...]) -> Path | None:
+    def _target(self, block: OpenBlock, path: Path, above: tuple[Path, ...]) -> Path | None:
         """Return the file that INPUT= names; None where it is missing and the report goes on."""
         where = f"{block.file}:{block.line}: *{block.keyword}"
         named = block.raw["INPUT"]
@@ -220,7 +209,7 @@ class _Reader:
             return None
         return target
 
-    def _include(self, block: _Open, path: Path, above: tuple[Path, ...]) -> None:
+    def _include(self, block: OpenBlock, path: Path, above: tuple[Path, ...]) -> None:
         """Read the file an *INCLUDE names."""
         where = f"{block.file}:{block.line}: *INCLUDE"
         if not set(block.parameters) <= {"INPUT", "PASSWORD"} or not block.raw.get("INPUT"):
@@ -233,7 +222,7 @@ class _Reader:
         if target is not None:
             self.read(target, _relative(target, self.folder), above)
 
-    def _input(self, block: _Open, path: Path) -> None:
+    def _input(self, block: OpenBlock, path: Path) -> None:
         """Read data lines from the file that a keyword's INPUT= names; such lines are counted in that file."""
         target = self._target(block, path, (path.resolve(),))
         if target is None:
@@ -253,24 +242,7 @@ def _relative(target: Path, folder: Path) -> str:
     return target.relative_to(folder).as_posix()
 
 
-def _continued(lines: list[str], row: int, name: str) -> tuple[str, int]:
-    """Return a keyword line with the lines that it goes on in, and the row after them."""
-    stripped = lines[row].strip()
-    row += 1
-    while stripped.endswith(","):
-        if row >= len(lines):
-            raise InputError(f"{name}:{row}", "end of file", "the keyword line to go on after its comma")
-        following = lines[row].strip()
-        row += 1
-        if following.startswith("**"):
-            continue
-        if not following or following.startswith("*"):
-            raise InputError(f"{name}:{row}", following[:40] or "a blank line", "the keyword line to go on")
-        stripped += following
-    return stripped, row
-
-
-def _parse_keyword(text: str, file: str, line: int) -> _Open:
+def _parse_keyword(text: str, file: str, line: int) -> OpenBlock:
     """Split one (joined) keyword line into keyword and parameters."""
     head, *rest = split_commas(text[1:])
     keyword = " ".join(head.upper().split())
@@ -297,4 +269,4 @@ def _parse_keyword(text: str, file: str, line: int) -> _Open:
             parameters[name] = label(value)
         else:
             parameters[name] = value_name(keyword, name, " ".join(value.upper().split()))
-    return _Open(keyword, parameters, raw, file, line)
+    return OpenBlock(keyword, parameters, raw, file, line)

@@ -52,6 +52,7 @@ def read_lines(path: Path, budget: int = MOST_BYTES) -> tuple[list[str], int]:
         raise InputError(path, "an empty file", "text")
     if data.startswith(UTF16_MARKS):
         raise InputError(path, "UTF-16 text", "UTF-8 or Latin-1 text")
+    data = data.rstrip(b"\x1a")  # the end of a file in DOS
     binary = CONTROL.search(data)
     if binary is not None:
         raise InputError(path, f"binary data at byte {binary.start()}", "UTF-8 or Latin-1 text")

@@ -159,14 +159,12 @@ def test_a_file_of_two_gigabytes_and_one_that_is_none_are_refused_unread(tmp_pat
         "1, 2\n*NODE\n",
         "*NODE, NSET=A, nset=B\n",
         "*\n",
-        "*STEP,\n*NODE\n",
-        "*STEP,\n",
         "** only a comment\n",
         "*NODE, =3\n",
     ],
 )
 def test_broken_syntax_stops_with_its_line(tmp_path: Path, text: str) -> None:
-    """Data before any keyword, a parameter twice, an empty keyword, an unfinished continuation."""
+    """Data before any keyword, a parameter twice, an empty keyword, a parameter without a name."""
     with pytest.raises(InputError, match=r"a\.inp:\d"):
         read_deck(deck_of(tmp_path, text))
 
@@ -189,3 +187,38 @@ def test_any_row_of_floats_survives_the_deck(tmp_path_factory: pytest.TempPathFa
     text = "*NODE\n" + ", ".join(repr(value) for value in row) + "\n"
     line = read_deck(deck_of(folder, text)).blocks[0].data[0]
     assert [line.number_at(i, "a number") for i in range(len(row))] == row
+
+
+@pytest.mark.parametrize(
+    ("text", "keyword", "parameters", "data"),
+    [
+        ("*BOUNDARY,\n1, 1, 3", "BOUNDARY", {}, ["1, 1, 3"]),
+        ("*Boundary, \n\nTop, 1, 3\n", "BOUNDARY", {}, ["Top, 1, 3"]),
+        ("*Node, nset=A,\n1, 0., 0., 0.", "NODE", {"NSET": "A"}, ["1, 0., 0., 0."]),
+        ("*NODE OUTPUT,\nU,", "NODE OUTPUT", {}, ["U,"]),
+        ("*ELEMENT OUTPUT,\nE, S\n", "ELEMENT OUTPUT", {}, ["E, S"]),
+        ("*DENSITY,", "DENSITY", {}, []),
+        ("*HEADING,\nname=of the thing", "HEADING", {}, ["name=of the thing"]),
+        ("*NSET, NSET=A,\n** why\n\n generate\n1, 5, 1", "NSET", {"NSET": "A", "GENERATE": None}, ["1, 5, 1"]),
+        ("*NSET, NSET=A,\ngener\n1, 5, 1", "NSET", {"NSET": "A", "GENERATE": None}, ["1, 5, 1"]),
+        ("*NSET,\nNSET=A,\nunsorted\n1", "NSET", {"NSET": "A", "UNSORTED": None}, ["1"]),
+    ],
+)
+def test_a_keyword_line_goes_on_after_a_comma_only_with_parameters(
+    text: str, keyword: str, parameters: dict[str, str | None], data: list[str], tmp_path: Path
+) -> None:
+    """A comma too many is what decks in use have: data are data, whatever the line above ends with."""
+    path = tmp_path / "a.inp"
+    path.write_text(text)
+    told: list[str] = []
+    (block,) = read_deck(path, lambda rule, *_: told.append(rule)).blocks
+    assert (block.keyword, block.parameters, list(block.data.texts)) == (keyword, parameters, data)
+    assert told == ([] if "GENERATE" in parameters or "UNSORTED" in parameters else ["trailing-comma"])
+    assert read_deck(path).blocks[0].parameters == parameters
+
+
+def test_the_end_of_file_mark_of_dos_is_no_data(tmp_path: Path) -> None:
+    path = tmp_path / "a.inp"
+    path.write_bytes(b"*NODE\r\n1, 0., 0., 0.\r\n\x1a")
+    (block,) = read_deck(path).blocks
+    assert list(block.data.texts) == ["1, 0., 0., 0."]
