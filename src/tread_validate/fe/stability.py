@@ -3,7 +3,8 @@
 An element on its own can pulsate with all its nodes at once; in a mesh its neighbours share them, and the highest
 frequency is lower, by up to the square root of three for equal cubes of nearly incompressible rubber. It is found by
 Lanczos' method (Golub and Van Loan, Matrix Computations, 10.1) on M^-1/2 K M^-1/2 with the instantaneous moduli and the
-mesh as deformed; each look starts from the mode found before.
+mesh as deformed; each look starts from the mode found before, and from something in every direction: the mode of a
+block in contact changes places, and from the old one alone the new one would be found too late.
 """
 
 from __future__ import annotations
@@ -24,8 +25,10 @@ from .hyperelastic import stiffened
 Floats = NDArray[np.float64]
 FIRST_STEPS = 80
 """Lanczos steps from an arbitrary start: the largest eigenvalue to 0.1 %."""
-NEXT_STEPS = 6
-"""Lanczos steps from the mode of the look before."""
+NEXT_STEPS = 12
+"""Lanczos steps from the mode of the look before: the increment to 1 % where the mode changes places."""
+ANYWHERE = 0.3
+"""Size of the arbitrary vector that is added to that mode, of unit length."""
 EXHAUSTED = 1e-10
 """Size of a new Lanczos vector, of the largest eigenvalue, at which the space is taken to be complete."""
 
@@ -148,6 +151,7 @@ class StableIncrement:
         root = np.sqrt(np.divide(1.0, blocks.mass, out=np.zeros_like(blocks.mass), where=free & (blocks.mass > 0.0)))
         self.root = np.repeat(root[:, None], 3, axis=1)
         self.mode: Floats | None = None
+        self.random = np.random.default_rng(0)
 
     def _gather(self, b: Blocks) -> None:
         """Set up the rows of the stiffness: one-point elements, Gauss points, fully integrated elements.
@@ -195,11 +199,12 @@ class StableIncrement:
         """Return the square of the highest angular frequency at a displacement (n, 3), hourglass stiffness included."""
         b = self.blocks
         self._deform(displacement)
-        steps = NEXT_STEPS
+        arbitrary = self.random.standard_normal(displacement.shape) * (self.root > 0.0)
         if self.mode is None:
-            steps = FIRST_STEPS
-            self.mode = np.random.default_rng(0).standard_normal(displacement.shape) * (self.root > 0.0)
-        largest, self.mode = self._lanczos(self.mode, steps)
+            largest, self.mode = self._lanczos(arbitrary, FIRST_STEPS)
+        else:
+            arbitrary *= ANYWHERE / math.sqrt(dot(arbitrary.ravel(), arbitrary.ravel()))
+            largest, self.mode = self._lanczos(self.mode + arbitrary, NEXT_STEPS)
         return largest + float((b.hourglass / (b.density * b.volume)).max())
 
     def increment(self, displacement: Floats) -> float:
