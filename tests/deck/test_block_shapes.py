@@ -18,9 +18,9 @@ from tread_validate import deck
 from tread_validate.deck.block_mesh import BlockMesh
 from tread_validate.deck.lint import lint
 from tread_validate.deck.mesh import block_mesh
-from tread_validate.deck.mesh_file import TURNED, _jacobians
 from tread_validate.errors import InputError
 from tread_validate.fe import run_deck
+from tread_validate.geometry.mesh_file import TURNED, _jacobians
 from tread_validate.study import Block, Case, DeckSettings
 
 FloatArray = NDArray[np.float64]

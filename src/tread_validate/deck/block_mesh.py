@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-MOST_ELEMENTS = 2_000_000
-
 
 def _none() -> IntArray:
     return np.zeros(0, dtype=np.int64)

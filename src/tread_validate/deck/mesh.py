@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
+from ..geometry.mesh_file import MOST_ELEMENTS, read_hex_mesh
 from ..study import Block, DeckSettings
-from .block_mesh import MOST_ELEMENTS, BlockMesh, FloatArray, IntArray, finished
-from .mesh_file import mesh_of_file
+from .block_mesh import BlockMesh, FloatArray, IntArray, finished
 
 
 @lru_cache(maxsize=32)
@@ -31,7 +31,8 @@ def block_mesh(block: Block, settings: DeckSettings, root: Path | None = None) -
     """
     half = _is_halved(block, settings)
     if block.mesh is not None:
-        return mesh_of_file(block, root if root is not None else Path())
+        own = read_hex_mesh(block, root if root is not None else Path())
+        return finished(-own.points[:, 0], own.u, own.points[:, 2], own.elements)
     heights = _heights(block, settings)
     parts = _parts(block.width_mm, settings.element_size_mm)
     across = np.linspace(-0.5, 0.5, parts + 1) * block.width_mm

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InputError, one_line
 from ..files import read_text
-from ..study import Block
 from ..units import IN_MM, MM
-from .block_mesh import MOST_ELEMENTS, BlockMesh, FloatArray, IntArray, finished
+from .tread_block import Block
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+MOST_ELEMENTS = 2_000_000
 
 SIZE_TOLERANCE = 1e-3  # of the block's length, width and height
 ON_PLANE = 1e-6  # of the height: nodes this close to the face or the mount lie in it
@@ -28,7 +34,32 @@ TURNED = np.array([
 """Corner orders of a hexahedron that put its face S1 .. S6 first, without turning it inside out."""
 
 
-def mesh_of_file(block: Block, root: Path) -> BlockMesh:
+@dataclass(frozen=True)
+class HexMesh:
+    """A block of hexahedra.
+
+    Attributes
+    ----------
+    points : (n, 3) array, mm
+        x in the direction of travel, 0 at the foremost node of the face; y away from the road, 0 on the face; z across,
+        0 in the middle.
+    u : (n,) array
+        Height fraction: exactly 0 on the face, exactly 1 at the mount.
+    elements : (m, 8) array of int
+        Node indices from 0, of positive Jacobian; the first four are the element's face on the road, where it has one.
+    """
+
+    points: FloatArray
+    u: FloatArray
+    elements: IntArray
+
+    @property
+    def face_elements(self) -> IntArray:
+        """Elements whose first four nodes lie on the face."""
+        return np.flatnonzero(np.all(self.u[self.elements[:, :4]] == 0.0, axis=1))
+
+
+def read_hex_mesh(block: Block, root: Path) -> HexMesh:
     """Read the mesh file of a block: x in the direction of travel, y away from the road, z across.
 
     The contact face is what lies at the lowest y, the mount what lies at the highest.
@@ -53,8 +84,8 @@ def mesh_of_file(block: Block, root: Path) -> BlockMesh:
     elements = _facing_road(_upright(points, elements, where), u)
     lead = points[u == 0.0, 0].max()
     middle = 0.5 * (points[:, 2].min() + points[:, 2].max())
-    mesh = finished(lead - points[:, 0], u, points[:, 2] - middle, elements)
-    if not mesh.face_elements.size or mesh.mount_nodes.size < 4:
+    mesh = HexMesh(points - np.array([lead, least, middle]), u, elements)
+    if not mesh.face_elements.size or np.count_nonzero(u == 1.0) < 4:
         missing = "contact face at the lowest y" if not mesh.face_elements.size else "mount at the highest y"
         raise InputError(where, f"no {missing}", "faces of elements in the planes of the lowest and the highest y")
     return mesh
