@@ -23,7 +23,7 @@ import tread_validate as tv
 from tread_validate.geometry import Sipe, path_of
 from tread_validate.spring import free_rolling_creep, run
 from tread_validate.spring.condensed.roll import CondensedSettings, roll, step_times
-from tread_validate.spring.condensed.store import converged_ratios, ready
+from tread_validate.spring.condensed.store import converged_stuck, ready
 
 BELT = "belt-simplified-60c-0p2mm-16p7mps-creep0p3"
 MEASURED = "belt-midtop-60c-0p2mm-16p7mps-creep0p3"
@@ -43,7 +43,7 @@ def best_of(count, work):
 
 
 def forget():
-    for store in (converged_ratios, ready):
+    for store in (converged_stuck, ready):
         store.cache_clear()
 
 

@@ -12,9 +12,12 @@ from tread_validate.spring.condensed.finite_strain import (
     second_order_arrays,
     second_order_of,
 )
-from tread_validate.spring.condensed.inputs import Pose, fresh_state, scratch
+from tread_validate.spring.condensed.inputs import Operator, Pose, fresh_state, scratch
+from tread_validate.spring.condensed.products import loads
 from tread_validate.spring.condensed.second_order import follow_up
 from tread_validate.spring.condensed.store import converged_ratios
+from tread_validate.spring.condensed.stuck import stuck_ratios_of
+from tread_validate.spring.condensed.symmetry import folded, folds, spread
 from tread_validate.spring.stiffness import static_ratios
 from tread_validate.study import Block
 
@@ -76,6 +79,48 @@ def test_condensing_does_not_change_the_stiffness_that_a_direct_solve_finds():
         energy = whole @ (assemble(body, NU) @ whole)
         face = np.tile(np.eye(3)[component], body.nodes_per_layer)
         assert face @ matrix @ face == pytest.approx(energy, rel=1e-9)
+
+
+SIPED = block(sipes=[{"position_mm": 7.9, "width_mm": 0.6, "depth_mm": 6.0}])
+SOLID = [(block(), FreeShape()), (block(), RING), (SKEWED, FreeShape()), (SKEWED, RING)]
+
+
+@pytest.mark.parametrize(("plan", "shape"), [*SOLID, (SIPED, RING)])
+def test_even_and_odd_motions_together_are_the_whole_block(plan, shape):
+    """The Schur complement of the assembled matrix, inside out, is what the folded elimination leaves: round-off."""
+    body = make_body(plan, shape, COARSE)
+    assert (folds(body) is None) == bool(plan.sipes)
+    whole, n = assemble(body, NU).toarray(), 3 * body.nodes_per_layer
+    face, inside, mount = slice(0, n), slice(n, n * body.layers), slice(n * body.layers, None)
+    solved = np.linalg.solve(whole[inside, inside], np.hstack([whole[inside, face], whole[inside, mount]]))
+    stiffness = whole[face, face] - whole[face, inside] @ solved[:, :n]
+    follow = np.linalg.solve(stiffness, whole[face, inside] @ solved[:, n:] @ body.mount_shapes())
+    found = condense(body, NU)
+    assert np.abs(found.stiffness - stiffness).max() < 1e-12 * np.abs(stiffness).max()
+    assert np.abs(found.follow - follow).max() < 1e-11
+
+
+@pytest.mark.parametrize(("plan", "shape"), SOLID)
+def test_folded_products_of_a_face_are_those_of_the_whole_matrix(plan, shape):
+    """Even part + odd part = all, to single precision; and the parts put together are the matrix, to round-off."""
+    body = make_body(plan, shape, COARSE)
+    matrix, parts = condense(body, NU).stiffness, folds(body)
+    again = np.zeros_like(matrix)
+    for fold in parts:
+        spread(folded(matrix, fold), fold, again)
+    assert np.abs(again - matrix).max() < 1e-13 * np.abs(matrix).max()
+    blocks = [np.ascontiguousarray(each, dtype=np.float32) for each in (matrix, *(folded(matrix, f) for f in parts))]
+    q, out = np.sin(np.arange(matrix.shape[0])), np.empty(matrix.shape[0])
+    loads(Operator(*blocks), *parts, q, out)
+    assert np.abs(out - matrix @ q).max() < 1e-5 * np.abs(matrix @ q).max()
+
+
+@pytest.mark.parametrize(("plan", "shape"), [*SOLID, (SIPED, RING)])
+def test_two_motions_of_the_face_are_enough_for_normal_and_shear_stiffness(plan, shape):
+    """A banded solve for them agrees with the condensed matrix to round-off."""
+    body = make_body(plan, shape, COARSE)
+    ratios = static_ratios(body, condense(body, NU), NU, 8e-3)
+    assert stuck_ratios_of(plan, body, NU, 8e-3) == pytest.approx((ratios.normal, ratios.shear), rel=1e-11)
 
 
 def quadratic_ratios(parts):

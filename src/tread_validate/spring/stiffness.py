@@ -47,25 +47,27 @@ def static_ratios(body: Body, face: FaceStiffness, poissons_ratio: float, height
     matrix, n = face.stiffness, body.nodes_per_layer
     component = np.tile([0, 1, 2], n)
     on_plane = body.on_symmetry_plane[body.on_symmetry_plane < n]
-    area = float(body.area.sum())
-    inertia = float(body.area @ body.along**2)
-    shear_modulus = 0.5 / (1.0 + poissons_ratio)
-
-    def work(displacement: Array) -> float:
-        return float(displacement @ matrix @ displacement)
-
     press = np.where(component == 1, 1.0, 0.0)
     rock = np.where(component == 1, np.repeat(body.along, 3), 0.0)
     loose = component != 1
     loose[3 * on_plane + 2] = False
     slide = press.copy()
     slide[loose] = -np.linalg.solve(matrix[np.ix_(loose, loose)], (matrix @ press)[loose])
+    normal, shear = stuck_ratios(body, face, poissons_ratio, height)
     return StiffnessRatios(
-        normal=work(press) * height / area,
-        normal_sliding=work(slide) * height / area,
-        shear=work(np.where(component == 0, 1.0, 0.0)) * height / (shear_modulus * area),
-        rocking=work(rock) * height / inertia,
+        normal=normal,
+        normal_sliding=float(slide @ matrix @ slide) * height / float(body.area.sum()),
+        shear=shear,
+        rocking=float(rock @ matrix @ rock) * height / float(body.area @ body.along**2),
     )
+
+
+def stuck_ratios(body: Body, face: FaceStiffness, poissons_ratio: float, height: float) -> tuple[float, float]:
+    """Return the ratios of normal and shear stiffness of a face that sticks; `height` in m."""
+    matrix, area = face.stiffness, float(body.area.sum())
+    shear_modulus = 0.5 / (1.0 + poissons_ratio)
+    normal, shear = float(matrix[1::3, 1::3].sum()), float(matrix[0::3, 0::3].sum())
+    return normal * height / area, shear * height / (shear_modulus * area)
 
 
 def shape_factor(block: Block, sliding: bool = False) -> float:

@@ -6,7 +6,7 @@ import pytest
 from tread_validate.source_code import PACKAGE, Graph
 from tread_validate.spring.condensed import kept as store
 from tread_validate.spring.condensed.roll import roll
-from tread_validate.spring.condensed.store import converged_ratios, ready
+from tread_validate.spring.condensed.store import converged_stuck, ready
 from tread_validate.study import load_study
 
 ARRAYS = {"one": np.arange(6.0).reshape(2, 3), "two": np.float32([1, 2, 3])}
@@ -15,10 +15,10 @@ ARRAYS = {"one": np.arange(6.0).reshape(2, 3), "two": np.float32([1, 2, 3])}
 @pytest.fixture
 def own_cache(tmp_path, monkeypatch):
     monkeypatch.setenv("TREAD_VALIDATE_CACHE", str(tmp_path))
-    for each in (ready, converged_ratios):
+    for each in (ready, converged_stuck):
         each.cache_clear()
     yield tmp_path
-    for each in (ready, converged_ratios):
+    for each in (ready, converged_stuck):
         each.cache_clear()
 
 
@@ -67,7 +67,7 @@ def test_a_kept_face_gives_the_forces_of_a_new_one(own_cache, paper_study):
     """Bit for bit: the same arrays go into the same kernel."""
     case = load_study(paper_study).case("rig-rectangle-22c-0p2mm-300rpm")
     new = roll(case)
-    assert {path.name.split("-")[0] for path in own_cache.iterdir()} == {"face", "ratios", "stiffness", "windows"}
+    assert {path.name.split("-")[0] for path in own_cache.iterdir()} == {"face", "stiffness", "stuck", "windows"}
     ready.cache_clear()
     again = roll(case)
     assert np.array_equal(new.force, again.force)

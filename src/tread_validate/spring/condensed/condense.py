@@ -7,19 +7,23 @@ alike, so the viscoelastic block is this matrix times one scalar relaxation (cor
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve, cholesky
-from scipy.linalg.blas import dsyrk, dtrsm
-from scipy.sparse import coo_array, csr_array, diags_array, eye_array, kron
+from scipy.linalg.blas import dtrsm
+from scipy.sparse import coo_array, csr_array, diags_array
 
 from ...errors import InputError
 from .body import Body
 from .element import IncompatibleField
+from .inputs import Fold
+from .symmetry import folds, gathered, spread, whole_fold
 
 Array = NDArray[np.float64]
+
+PARTS = 5
+"""Blocks of an elimination along the block."""
 
 
 @dataclass(frozen=True)
@@ -46,88 +50,105 @@ def condense(body: Body, poissons_ratio: float) -> FaceStiffness:
     """
     if not 0.0 <= poissons_ratio < 0.5:
         raise InputError("Poisson's ratio", poissons_ratio, "0 or more and less than 0.5")
-    whole = assemble(body, poissons_ratio)
-    size, below = 3 * body.nodes_per_layer, 3 * body.nodes_per_layer * body.layers
-    # the mount's layer moves as its knots say: its motion loads the layer below it
-    load = np.asarray(-(whole[below - size : below, below:] @ body.mount_shapes()))
-    matrix, pushed = np.zeros((size, size)), np.zeros(load.shape)
-    for basis in parities(body):
-        bases = kron(eye_array(body.layers), basis, format="csr")
-        diagonal, towards_mount = _layers(csr_array(bases.T @ whole[:below, :below] @ bases), body.layers)
-        part, moved = _eliminate(diagonal, towards_mount, np.asarray(basis.T @ load))
-        matrix += basis @ (basis @ part).T
-        pushed += basis @ moved
-    matrix = 0.5 * (matrix + matrix.T)
-    return FaceStiffness(matrix, cho_solve(cho_factor(matrix), pushed))
+    element = IncompatibleField(body.nodes[body.elements], poissons_ratio).stiffness()
+    size = 3 * body.nodes_per_layer
+    load = _mount_load(body, element)
+    matrix, follow = np.zeros((size, size)), np.zeros(load.shape)
+    for fold in folds(body) or (whole_fold(size),):
+        diagonal, towards_mount, reach = _layers(body, element, fold)
+        part, pushed = _eliminate(diagonal, towards_mount, reach, gathered(load, fold))
+        spread(part, fold, matrix)
+        moved = cho_solve(cho_factor(part, check_finite=False), pushed, check_finite=False)
+        follow[fold.left] += fold.own[:, None] * moved
+        follow[fold.right] += fold.other[:, None] * moved
+    return FaceStiffness(matrix, follow)
 
 
-def _eliminate(diagonal: list[Array], towards_mount: list[Array], load: Array) -> tuple[Array, Array]:
-    """Return what is left on the first layer of a block-tridiagonal matrix and of a load on its last layer."""
+def _eliminate(diagonal: list[Array], towards_mount: list[Array], reach: int, load: Array) -> tuple[Array, Array]:
+    """Return what is left on the first layer of a block-tridiagonal matrix and of a load on its last layer.
+
+    Nodes are in order along the block and couple with those within `reach` only, so that factor^-1 coupling^T is zero
+    above a band: block by block, more than half of the work falls away.
+    """
+    size = load.shape[0]
+    width = max(-(-size // PARTS), reach)
+    cuts = [(k, min(k + width, size)) for k in range(0, size, width)]
     matrix = diagonal[-1]
     for inner, coupling in zip(diagonal[-2::-1], towards_mount[::-1], strict=True):
-        factor = cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
-        half = dtrsm(1.0, factor, coupling.T, lower=1)
-        load = -half.T @ dtrsm(1.0, factor, load, lower=1)
-        # the lower triangle alone is kept
-        matrix = dsyrk(-1.0, half, beta=1.0, c=np.asfortranarray(inner), trans=1, lower=1, overwrite_c=1)
+        factor = cholesky(matrix, lower=True, check_finite=False)
+        half, rest = np.zeros((size, size)), np.empty(load.shape)
+        for begin, end in cuts:
+            right = min(end + width, size)
+            found = coupling[:right, begin:end].T - factor[begin:end, :begin] @ half[:begin, :right]
+            half[begin:end, :right] = dtrsm(1.0, factor[begin:end, begin:end], found, lower=1)
+            rest[begin:end] = load[begin:end] - factor[begin:end, :begin] @ rest[:begin]
+            rest[begin:end] = dtrsm(1.0, factor[begin:end, begin:end], rest[begin:end], lower=1)
+        matrix, load = inner.copy(), -half.T @ rest
+        for begin, end in cuts:  # the lower triangle alone is kept
+            first = max(begin - width, 0)
+            matrix[begin:end, :end] -= half[first:, begin:end].T @ half[first:, :end]
     return np.asarray(np.tril(matrix) + np.tril(matrix, -1).T), load
 
 
-def parities(body: Body) -> list[csr_array]:
-    """Return orthonormal bases (3 n, k) of motions of a layer that the body's symmetry keeps apart.
+def _mount_load(body: Body, element: Array) -> Array:
+    """Return the load (3 n, 2 k) on the layer below the mount when each knot of the mount moves by 1."""
+    last = np.all(body.elements[:, 4:] >= body.nodes_per_layer * body.layers, axis=1)
+    inner, outer = (dofs_of(body.elements[last, part]) for part in (slice(0, 4), slice(4, 8)))
+    shapes = body.mount_shapes()[outer - 3 * body.nodes_per_layer * body.layers]
+    load = np.zeros((3 * body.nodes_per_layer, shapes.shape[2]))
+    np.add.at(load, inner - 3 * body.nodes_per_layer * (body.layers - 1), -(element[last, :12, 12:] @ shapes))
+    load[held_dofs(body)[-2 * load.shape[0] : -load.shape[0]]] = 0.0
+    return load
 
-    A rectangle looks the same in the mirror x -> -x, a parallelogram turned by half a turn about y; even and odd
-    motions then do not load each other, and two problems of half the size take a quarter of the work. One basis, the
-    identity, where the body has no such symmetry (sipes).
+
+def _layers(body: Body, element: Array, fold: Fold) -> tuple[list[Array], list[Array], int]:
+    """Return the blocks K[k, k] and K[k, k + 1] of the node layers below the mount, k = 0 on the face, for a fold,
+    and how far apart two numbers are at most that couple.
+
+    Supported degrees of freedom have a 1 on the diagonal and nothing else.
     """
-    n = body.nodes_per_layer
-    identity = csr_array(eye_array(3 * n))
-    partner = _partners(body)
-    if partner is None:
-        return [identity]
-    sign = np.array([-1.0, 1.0, 1.0 if body.half else -1.0])
-    bases = []
-    for parity in (1.0, -1.0):
-        rows, columns, values, count = [], [], [], 0
-        for i in range(n):
-            j = int(partner[i])
-            for c in range(3):
-                factor = parity * sign[c]
-                if j < i or (j == i and factor < 0.0):
-                    continue
-                share = 1.0 if j == i else np.sqrt(0.5)
-                rows += [3 * i + c] if j == i else [3 * i + c, 3 * j + c]
-                columns += [count] if j == i else [count, count]
-                values += [share] if j == i else [share, factor * share]
-                count += 1
-        bases.append(csr_array(coo_array((values, (rows, columns)), shape=(3 * n, count))))
-    return bases
+    size, layers, n = fold.left.size, body.layers, 3 * body.nodes_per_layer
+    place, share = np.zeros(n, dtype=np.int64), np.zeros(n)
+    order = np.arange(size)
+    place[fold.left], place[fold.right] = order, order
+    np.add.at(share, fold.left, fold.own)
+    np.add.at(share, fold.right, fold.other)
+    held = held_dofs(body).reshape(layers + 1, n)
+    dofs = dofs_of(body.elements)
+    at, layer = place[dofs % n], body.elements[:, 0] // body.nodes_per_layer
+    weight = np.where(held.ravel()[dofs], 0.0, share[dofs % n])
+    scaled = element * weight[:, :, None] * weight[:, None, :]
+    rows, near, far = at * size, slice(0, 12), slice(12, 24)
+
+    def block(mine: NDArray[np.bool_], a: slice, b: slice) -> Array:
+        where = (rows[mine, a, None] + at[mine, None, b]).ravel()
+        found = np.bincount(where, scaled[mine, a, b].ravel(), size * size)
+        return np.asarray(found.reshape(size, size), dtype=np.float64)
+
+    diagonal, towards_mount, under = [], [], np.zeros((size, size))
+    for k in range(layers):
+        mine = layer == k
+        own = block(mine, near, near) + under
+        fixed = np.flatnonzero(held[k][fold.left])
+        own[fixed, fixed] = 1.0
+        diagonal.append(own)
+        if k + 1 < layers:
+            towards_mount.append(block(mine, near, far))
+            under = block(mine, far, far)
+    return diagonal, towards_mount, int(np.max(at.max(axis=1) - at.min(axis=1)))
 
 
-def _partners(body: Body) -> NDArray[np.int64] | None:
-    """Return the mirror image of each node of a layer; None where the body is not symmetric."""
-    turn = np.array([-1.0, 1.0, 1.0 if body.half else -1.0])
-    face = np.round(body.nodes[: body.nodes_per_layer] / 1e-9)
-    order, mirrored = np.lexsort(face.T), np.lexsort((face * turn).T)
-    partner = np.empty(face.shape[0], dtype=np.int64)
-    partner[order] = mirrored
-    whole = (np.arange(body.layers + 1)[:, None] * face.shape[0] + partner).ravel()
-    same = np.allclose(body.nodes[whole], body.nodes * turn, rtol=0.0, atol=2e-9)
-    same = same and np.array_equal(_sorted(body.elements), _sorted(whole[body.elements]))
-    return partner if same else None
+def dofs_of(nodes: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the degrees of freedom (m, 3 a) of the nodes (m, a)."""
+    return (3 * nodes[:, :, None] + np.arange(3)).reshape(nodes.shape[0], -1)
 
 
-def _sorted(bricks: NDArray[np.int64]) -> NDArray[np.int64]:
-    rows = np.sort(bricks, axis=1)
-    return rows[np.lexsort(rows.T)]
-
-
-def _layers(whole: csr_array, layers: int) -> tuple[list[Array], list[Array]]:
-    """Return the blocks K[k, k] and K[k, k + 1] of the node layers below the mount, k = 0 on the face."""
-    step = whole.shape[0] // layers
-    cuts = [slice(k * step, (k + 1) * step) for k in range(layers)]
-    diagonal = [whole[own, own].toarray() for own in cuts]
-    return diagonal, [whole[own, above].toarray() for own, above in pairwise(cuts)]
+def held_dofs(body: Body) -> NDArray[np.bool_]:
+    """Return which degrees of freedom carry a support: on the plane of symmetry, and of nodes without a brick."""
+    held = np.zeros(3 * body.nodes.shape[0], dtype=bool)
+    held[3 * body.on_symmetry_plane + 2] = True
+    held[(3 * body.unused[:, None] + np.arange(3)).ravel()] = True
+    return held
 
 
 def assemble(body: Body, poissons_ratio: float) -> csr_array:
@@ -136,12 +157,10 @@ def assemble(body: Body, poissons_ratio: float) -> csr_array:
     Supported degrees of freedom have a 1 on the diagonal and nothing else.
     """
     element = IncompatibleField(body.nodes[body.elements], poissons_ratio).stiffness()
-    dofs = (3 * body.elements[:, :, None] + np.arange(3)).reshape(body.elements.shape[0], 24)
+    dofs = dofs_of(body.elements)
     size = 3 * body.nodes.shape[0]
     rows, columns = np.repeat(dofs, 24, axis=1).ravel(), np.tile(dofs, (1, 24)).ravel()
     whole = csr_array(coo_array((element.ravel(), (rows, columns)), shape=(size, size)))
-    held = np.zeros(size)
-    held[3 * body.on_symmetry_plane + 2] = 1.0
-    held[(3 * body.unused[:, None] + np.arange(3)).ravel()] = 1.0
+    held = held_dofs(body).astype(np.float64)
     free, fixed = diags_array(1.0 - held), diags_array(held)
     return csr_array(free @ whole @ free + fixed)

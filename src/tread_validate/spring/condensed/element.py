@@ -19,6 +19,7 @@ CORNERS = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
 """Natural coordinates of the eight nodes, (8, 3): the last one runs fastest."""
 
 GAUSS = CORNERS / np.sqrt(3.0)
+TOGETHER = 128
 
 
 class IncompatibleField:
@@ -36,18 +37,22 @@ class IncompatibleField:
         centre = _jacobian(nodes, np.zeros(3))
         self._nodes = nodes
         self._centre_inverse, self._centre_det = _inverse(centre)
-        strain, stress = np.empty((nodes.shape[0], 48, 33)), np.empty((nodes.shape[0], 48, 33))
         self.at_points = [self.shape_gradients(point) for point in GAUSS]
-        for k, (gradients, det) in enumerate(self.at_points):
-            _strain_rows(gradients, lame, shear, det, strain[:, 6 * k : 6 * k + 6], stress[:, 6 * k : 6 * k + 6])
-        blocks = np.swapaxes(strain, 1, 2) @ stress
-        self._outer, self._cross = blocks[:, :24, :24], blocks[:, :24, 24:]
-        self._inner = blocks[:, 24:, 24:]
-        self._inner_solved = np.linalg.solve(self._inner, np.swapaxes(self._cross, 1, 2))
+        # few elements at a time stay in the processor's cache
+        parts = [
+            _products(
+                np.stack([gradients[k : k + TOGETHER] for gradients, _ in self.at_points], axis=1),
+                np.stack([det[k : k + TOGETHER] for _, det in self.at_points], axis=1),
+                lame,
+                shear,
+            )
+            for k in range(0, nodes.shape[0], TOGETHER)
+        ]
+        self._inner_solved, self._inner, self._stiffness = (np.concatenate(each) for each in zip(*parts, strict=True))
 
     def stiffness(self) -> Array:
         """Return the (m, 24, 24) stiffness in m, per Pa of Young's modulus; degrees of freedom (node, component)."""
-        return np.asarray(self._outer - self._cross @ self._inner_solved, dtype=np.float64)
+        return self._stiffness
 
     def amplitudes(self, displacement: Array) -> Array:
         """Return the amplitudes of the internal modes, (m, 3, 3), that go with nodal displacements (m, 8, 3)."""
@@ -85,20 +90,25 @@ def _jacobian(nodes: Array, point: Array) -> Array:
     return np.asarray(np.swapaxes(nodes, 1, 2) @ shape_derivatives(point), dtype=np.float64)
 
 
-def _strain_rows(gradients: Array, lame: float, shear: float, det: Array, strain: Array, stress: Array) -> None:
-    """Write the strains (m, 6, 3n) of n shape functions with `gradients` (m, n, 3), and their stresses times `det`.
+def _products(gradients: Array, det: Array, lame: float, shear: float) -> tuple[Array, Array, Array]:
+    """Return what m elements' internal modes do with unit nodal displacements (m, 9, 24), their stiffness, and the
+    element's when they are free.
 
-    Order xx, yy, zz, xy, yz, zx; shear strains are the engineer's.
+    From `gradients` (m, 8, 11, 3) and volumes (m, 8) at the Gauss points: with H_aibj = int g_ai g_bj the stiffness of
+    all shape functions is lame H_aibj + shear (H_ajbi + delta_ij H_akbk).
     """
-    strain[:] = 0.0
-    for i, (j, k) in enumerate(((0, 1), (1, 2), (2, 0))):
-        strain[:, i, i::3] = gradients[:, :, i]
-        strain[:, 3 + i, j::3] = gradients[:, :, k]
-        strain[:, 3 + i, k::3] = gradients[:, :, j]
-    law = np.diag([2.0 * shear] * 3 + [shear] * 3)
-    law[:3, :3] += lame
-    np.matmul(law, strain, out=stress)
-    stress *= det[:, None, None]
+    m = det.shape[0]
+    flat = gradients.reshape(m, 8, 33)
+    product = (np.swapaxes(flat * det[:, :, None], 1, 2) @ flat).reshape(m, 11, 3, 11, 3)
+    whole = lame * product
+    whole += shear * np.swapaxes(product, 2, 4)
+    trace = shear * (product[:, :, 0, :, 0] + product[:, :, 1, :, 1] + product[:, :, 2, :, 2])
+    for i in range(3):
+        whole[:, :, i, :, i] += trace
+    whole = whole.reshape(m, 33, 33)
+    outer, cross, inner = whole[:, :24, :24], whole[:, :24, 24:], whole[:, 24:, 24:]
+    solved = np.linalg.solve(inner, np.swapaxes(cross, 1, 2))
+    return np.asarray(solved, dtype=np.float64), inner, np.asarray(outer - cross @ solved, dtype=np.float64)
 
 
 def _inverse(matrix: Array) -> tuple[Array, Array]:

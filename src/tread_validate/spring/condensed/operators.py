@@ -34,18 +34,27 @@ class FaceOperators:
     body : Body
     stiffness : callable
         Returns the face's stiffness, (3 n, 3 n); asked for when the first window is made.
-    compliance : array, optional
-        Its inverse, where that is at hand.
+    compliance : callable, optional
+        Returns its inverse.
+    nodal : array, optional
+        The same in single precision, where that is at hand.
     """
 
-    def __init__(self, body: Body, stiffness: Callable[[], Array], compliance: Singles | None = None) -> None:
+    def __init__(
+        self,
+        body: Body,
+        stiffness: Callable[[], Array],
+        compliance: Callable[[], Array] | None = None,
+        nodal: Singles | None = None,
+    ) -> None:
         self._make_stiffness = stiffness
+        self._make_compliance = compliance or (lambda: inverse(stiffness()))
         row = rows_of(body)
         cells = int(row[-1]) // ROWS + 1
         first = np.searchsorted(row, ROWS * np.arange(cells + 1)).astype(np.int64)
-        if compliance is None:
-            compliance = self._compliance.astype(np.float32)
-        self.nodes = FaceNodes(body.area, row, compliance)
+        if nodal is None:
+            nodal = self._compliance.astype(np.float32)
+        self.nodes = FaceNodes(body.area, row, nodal)
         self.windows = Windows(
             first,
             np.full((cells, cells + 1), -1, dtype=np.int64),
@@ -60,7 +69,7 @@ class FaceOperators:
 
     @cached_property
     def _compliance(self) -> Array:
-        return inverse(self._stiffness)
+        return self._make_compliance()
 
     @property
     def count(self) -> int:

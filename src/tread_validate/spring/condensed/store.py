@@ -7,6 +7,7 @@ stiffness to the limit of fine meshes, and the matrix is scaled, symmetrically a
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import astuple, dataclass
 from functools import cache, lru_cache
 
@@ -15,13 +16,14 @@ from numpy.typing import NDArray
 
 from ...study import Block
 from ...units import MM
-from ..stiffness import StiffnessRatios, static_ratios
+from ..stiffness import StiffnessRatios, static_ratios, stuck_ratios
 from .body import Body, BodySettings, FreeShape, make_body
 from .condense import FaceStiffness, condense
 from .finite_strain import second_order_arrays, second_order_of
 from .inputs import SecondOrder, Singles
 from .kept import Arrays, keep, kept, load
 from .operators import FaceOperators, inverse
+from .stuck import stuck_ratios_of
 
 Array = NDArray[np.float64]
 
@@ -73,9 +75,9 @@ def condensed(
     if not mesh_correction:
         return body, face
     height = block.height_mm * MM
-    limit, own = converged_ratios(block, shape, poissons_ratio), static_ratios(body, face, poissons_ratio, height)
-    across = np.sqrt(limit.shear / own.shear)
-    scale = np.tile([across, np.sqrt(limit.normal / own.normal), across], body.nodes_per_layer)
+    limit = np.array(converged_stuck(block, shape, poissons_ratio))
+    normal, across = np.sqrt(limit / stuck_ratios(body, face, poissons_ratio, height))
+    scale = np.tile([across, normal, across], body.nodes_per_layer)
     matrix = scale[:, None] * face.stiffness * scale
     # the supports on the plane of symmetry only have to stay supports
     return body, FaceStiffness(matrix, face.follow)
@@ -92,6 +94,10 @@ def ready(
     def solved() -> FaceStiffness:
         return condensed(block, shape, settings, poissons_ratio, mesh_correction)[1]
 
+    @cache
+    def compliance() -> Array:
+        return inverse(stiffness())
+
     def stiffness() -> Array:
         return kept("stiffness", key, lambda: {"stiffness": solved().stiffness})["stiffness"]
 
@@ -99,13 +105,13 @@ def ready(
         face = solved()
         return {
             "follow": face.follow,
-            "compliance": inverse(face.stiffness).astype(np.float32),
+            "compliance": compliance().astype(np.float32),
             **second_order_arrays(block, shape, body, poissons_ratio),
         }
 
     body = make_body(block, shape, settings)
     arrays = kept("face", key, make)
-    operators = FaceOperators(body, stiffness, arrays["compliance"])
+    operators = FaceOperators(body, stiffness, compliance, arrays["compliance"])
     found = load("windows", key)
     if found is not None:
         operators.learn(found["offset"], found["pool"])
@@ -118,19 +124,34 @@ def ready(
 def converged_ratios(block: Block, shape: FreeShape, poissons_ratio: float) -> StiffnessRatios:
     """Return the block's static stiffness ratios, extrapolated from two meshes, one twice as fine (Richardson)."""
 
-    def make() -> Arrays:
-        fine, coarse = (
-            np.array(astuple(_ratios(block, shape, _part(block, mesh), poissons_ratio))) for mesh in (FINE, COARSE)
-        )
+    def make(settings: BodySettings) -> Array:
+        body = make_body(block, shape, settings)
+        ratios = static_ratios(body, condense(body, poissons_ratio), poissons_ratio, block.height_mm * MM)
+        return np.array(astuple(ratios))
+
+    return StiffnessRatios(*_converged("ratios", block, shape, poissons_ratio, make))
+
+
+@lru_cache(maxsize=32)
+def converged_stuck(block: Block, shape: FreeShape, poissons_ratio: float) -> tuple[float, ...]:
+    """Return the first and the third of them, normal and shear, in a third of the time."""
+
+    def make(settings: BodySettings) -> Array:
+        body = make_body(block, shape, settings)
+        return np.array(stuck_ratios_of(block, body, poissons_ratio, block.height_mm * MM))
+
+    return _converged("stuck", block, shape, poissons_ratio, make)
+
+
+def _converged(
+    name: str, block: Block, shape: FreeShape, poissons_ratio: float, make: Callable[[BodySettings], Array]
+) -> tuple[float, ...]:
+    def extrapolated() -> Arrays:
+        fine, coarse = (make(_part(block, mesh)) for mesh in (FINE, COARSE))
         return {"ratios": fine + (fine - coarse) / (2.0**ORDER - 1.0)}
 
     key = f"{_plan(block)} {shape} {poissons_ratio!r}"
-    return StiffnessRatios(*(float(value) for value in kept("ratios", key, make)["ratios"]))
-
-
-def _ratios(block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float) -> StiffnessRatios:
-    body = make_body(block, shape, settings)
-    return static_ratios(body, condense(body, poissons_ratio), poissons_ratio, block.height_mm * MM)
+    return tuple(float(value) for value in kept(name, key, extrapolated)["ratios"])
 
 
 def _part(block: Block, mesh: tuple[float, int]) -> BodySettings:

@@ -44,6 +44,25 @@ def partners(body: Body) -> Integers | None:
     return partner if same else None
 
 
+def whole_fold(size: int) -> Fold:
+    """Return the fold of a layer of `size` degrees of freedom without symmetry: each moves by itself."""
+    each, half = np.arange(size), np.full(size, 0.5)
+    return Fold(each, each, half, half)
+
+
+def gathered(vectors: Array, fold: Fold) -> Array:
+    """Return the part (k, m) of vectors (3 n, m) that belongs to a fold's motions."""
+    return np.asarray(fold.own[:, None] * vectors[fold.left] + fold.other[:, None] * vectors[fold.right])
+
+
+def spread(part: Array, fold: Fold, matrix: Array) -> None:
+    """Add to a symmetric matrix (3 n, 3 n) its part (k, k) that belongs to a fold's motions."""
+    a, b = part * fold.own, part * fold.other
+    for rows, left in ((fold.left, fold.own), (fold.right, fold.other)):
+        matrix[np.ix_(rows, fold.left)] += left[:, None] * a
+        matrix[np.ix_(rows, fold.right)] += left[:, None] * b
+
+
 def folded(matrix: Array, fold: Fold) -> Array:
     """Return the part (k, k) of a symmetric matrix (3 n, 3 n) that belongs to a fold's motions."""
     half = fold.own[:, None] * matrix[fold.left] + fold.other[:, None] * matrix[fold.right]
