@@ -1,8 +1,7 @@
-"""Reading columns of numbers from laboratory exports, and saying exactly which row is wrong."""
+"""Reading columns of numbers, and saying exactly which row is wrong."""
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,14 +12,11 @@ from numpy.typing import NDArray
 
 from .bounds import first_beyond
 from .errors import InputError, one_line
-from .files import read_text
+from .text_table import read_text_table
 
-LONG = 2000  # rows from which a table is first read in one go
-LARGEST = 200_000_000  # characters
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
 COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 EMPTY = ("", "nan", "NaN", "NA")
-BYTE_ORDER_MARKS = ((b"\xff\xfe", "UTF-16"), (b"\xfe\xff", "UTF-16"))
 
 
 @dataclass(frozen=True)
@@ -72,39 +68,27 @@ def read_columns(
     Raises `InputError`, with file and line, for a missing column, a row of another length, a cell that is not a
     number, decimal points mixed with decimal commas, a byte-order mark inside the file, or UTF-16.
     """
-    lines = _lines(path)
-    comments: dict[str, str] = {}
-    start = 0
-    while start < len(lines) and (not lines[start].strip() or lines[start].lstrip().startswith("#")):
-        key, colon, value = lines[start].lstrip("# ").partition(":")
-        if colon:
-            comments[key.strip()] = value.strip()
-        start += 1
-    if start == len(lines):
-        raise InputError(path, "no header", "a header line with column names")
-    separator = max(";\t,", key=lines[start].count)
-    header = [name.strip().strip('"') for name in lines[start].split(separator)]
-    _check_header(path, start, header, needed)
-    wanted = [name for name in header if not needed or name in needed or name in set(optional)]
-    rows = [(n + 1, line.split(separator)) for n, line in enumerate(lines) if n > start and line.strip()]
-    if not rows:
+    table = read_text_table(path, ";\t,")
+    table.check(needed)
+    wanted = [name for name in table.header if not needed or name in needed or name in set(optional)]
+    if not table.rows:
         raise InputError(path, "a header without rows", "at least one row of numbers")
-    for number, cells in rows:
-        if len(cells) != len(header):
-            hint = " (decimal commas in a comma-separated file?)" if separator == "," else ""
-            raise InputError(f"{path}:{number}", f"{len(cells)} cells", f"{len(header)}, as in the header{hint}")
-    line = np.array([number for number, _ in rows], dtype=np.int64)
-    values = _quickly(lines, line, separator, header, wanted)
-    if values is not None:
-        _check_bounds(path, values, line)
-        return ColumnTable(values, line, str(path), comments)
-    values = {}
-    decimal: list[str] = []
-    for name in wanted:
-        column = header.index(name)
-        values[name] = np.array([_number(path, number, name, cells[column], gaps, decimal) for number, cells in rows])
+    line = np.array([number for number, _ in table.rows], dtype=np.int64)
+    cells = {name: [row[table.header.index(name)] for _, row in table.rows] for name in wanted}
+    values = _quickly(cells)
+    if values is None:
+        decimal: list[str] = []
+        values = {
+            name: np.array(
+                [
+                    _number(path, number, name, cell, gaps, decimal)
+                    for number, cell in zip(line.tolist(), column, strict=True)
+                ]
+            )
+            for name, column in cells.items()
+        }
     _check_bounds(path, values, line)
-    return ColumnTable(values, line, str(path), comments)
+    return ColumnTable(values, line, str(path), dict(table.comments))
 
 
 def _check_bounds(path: Path | str, values: Mapping[str, NDArray[np.float64]], line: NDArray[np.int64]) -> None:
@@ -115,51 +99,18 @@ def _check_bounds(path: Path | str, values: Mapping[str, NDArray[np.float64]], l
             raise InputError(f"{path}:{line[row]}: {name}", f"{column[row]:g}", expected)
 
 
-def _quickly(
-    lines: list[str], line: NDArray[np.int64], separator: str, header: list[str], wanted: list[str]
-) -> dict[str, NDArray[np.float64]] | None:
-    """Return the columns of a long table that is beyond reproach; None leaves the rest to the careful way."""
-    if line.size < LONG:
-        return None
-    import pandas as pd
-
-    body = "\n".join(lines[number - 1] for number in line)
-    places = [header.index(name) for name in wanted]
-    try:
-        frame = pd.read_csv(io.StringIO(body), sep=separator, header=None, usecols=places, dtype=np.float64)
-    except (ValueError, pd.errors.ParserError):
-        return None
-    table = frame.to_numpy()
-    if table.shape != (line.size, len(wanted)) or not np.all(np.isfinite(table)):
-        return None
-    return {name: frame[place].to_numpy() for name, place in zip(wanted, places, strict=True)}
-
-
-def _lines(path: Path | str) -> list[str]:
-    source = Path(path)
-    if source.is_file():
-        with source.open("rb") as stream:
-            first = stream.read(2)
-        for mark, name in BYTE_ORDER_MARKS:
-            if first == mark:
-                raise InputError(f"{path}:1", f"a {name} byte-order mark", "UTF-8 text (save the export as UTF-8)")
-        if source.stat().st_size > LARGEST:
-            raise InputError(path, f"{source.stat().st_size} bytes", f"at most {LARGEST}")
-    lines = read_text(path).splitlines()
-    for number, line in enumerate(lines, start=1):
-        if "\ufeff" in line:
-            raise InputError(f"{path}:{number}", "a byte-order mark inside the file", "one file, not several joined")
-    return lines
-
-
-def _check_header(path: Path | str, start: int, header: list[str], needed: Sequence[str]) -> None:
-    missing = [name for name in needed if name not in header]
-    if missing:
-        found = one_line("columns " + ", ".join(header), 160)
-        raise InputError(f"{path}:{start + 1}", found, f"column {missing[0]} (all of {', '.join(needed)})")
-    twice = {name for name in header if header.count(name) > 1}
-    if twice:
-        raise InputError(f"{path}:{start + 1}", f"column {sorted(twice)[0]} twice", "each column once")
+def _quickly(cells: Mapping[str, Sequence[str]]) -> dict[str, NDArray[np.float64]] | None:
+    """Return the columns of a table that is beyond reproach; None leaves all of it to the careful way."""
+    found = {}
+    for name, column in cells.items():
+        try:
+            numbers = np.array([float(cell) for cell in column])
+        except ValueError:
+            return None
+        if not np.all(np.isfinite(numbers)) or "_" in "".join(column):
+            return None
+        found[name] = numbers
+    return found
 
 
 def _number(path: Path | str, line: int, name: str, cell: str, gaps: bool, decimal: list[str]) -> float:

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .bounds import first_beyond
+from .columns import read_columns
 from .errors import InputError, one_line
-from .files import read_text, write_text
+from .files import write_text
 from .provenance import sha256_text
 from .units import IN_MS
 
@@ -167,65 +168,19 @@ class History:
 
         Raises `InputError` for a wrong header, a row of another length, a non-number or unsorted times.
         """
-        lines = read_text(path).splitlines()
-        provenance: dict[str, str] = {}
-        start = 0
-        while start < len(lines) and lines[start].startswith("#"):
-            key, _, value = lines[start][1:].partition(":")
-            provenance[key.strip()] = value.strip()
-            start += 1
-        header = tuple(name.strip() for name in lines[start].split(",")) if start < len(lines) else ()
-        _check_header(header, f"{path}:{start + 1}")
-        table = _numbers(path, lines[start + 1 :], start + 2, header)
-        found = {name: table[:, header.index(name)] for name in COLUMNS if name in header}
-        time, normal = (found[name] for name in NEEDED)
-        for name, values in found.items():
+        table = read_columns(path, NEEDED, COLUMNS[2:], gaps=True)
+        for name, values in table.values.items():
             if not np.all(np.isfinite(values)):
                 row = int(np.argmin(np.isfinite(values)))
                 where = f"{path}: {name.removesuffix('_N')}, sample {row + 1}"
                 raise InputError(where, values[row], "a finite number (leave out a column that is not known)")
         try:
-            return cls.of(time, normal, found.get(COLUMNS[2]), found.get(COLUMNS[3]), provenance)
+            time, normal, tangential, slipping = (table.values.get(name) for name in COLUMNS)
+            assert time is not None and normal is not None  # they are needed
+            return cls.of(time, normal, tangential, slipping, table.comments)
         except InputError as error:
             where = error.where.replace("history", str(path), 1)
             raise InputError(where, error.found, error.expected) from None
-
-
-def _check_header(header: tuple[str, ...], where: str) -> None:
-    expected = "a header with time_s,normal_force_N and, where known, tangential_force_N,slipping_fraction"
-    if not set(NEEDED) <= set(header):
-        raise InputError(where, ",".join(header) or "no header", expected)
-    if len(set(header)) != len(header):
-        raise InputError(where, ",".join(header), "each column once")
-
-
-def _numbers(path: Path | str, lines: list[str], first: int, header: tuple[str, ...]) -> NDArray[np.float64]:
-    """Return the rows of the known columns as numbers; other columns are nan, whatever stands in them."""
-    commas = len(header) - 1
-    for number, line in enumerate(lines, first):
-        if line.count(",") != commas:
-            raise InputError(f"{path}:{number}", line, f"{len(header)} values")
-    known = [index for index, name in enumerate(header) if name in COLUMNS]
-    table = np.full((len(lines), len(header)), np.nan)
-    if not lines:
-        return table
-    try:
-        table[:, known] = np.loadtxt(lines, delimiter=",", usecols=known, ndmin=2, comments=None)
-    except ValueError:
-        number, value = _first_fault(lines, first, known)
-        raise InputError(f"{path}:{number}", value, "a number") from None
-    return table
-
-
-def _first_fault(lines: list[str], first: int, known: list[int]) -> tuple[int, str]:
-    for number, line in enumerate(lines, first):
-        parts = line.split(",")
-        for index in known:
-            try:
-                float(parts[index])
-            except ValueError:
-                return number, parts[index].strip() or "nothing"
-    return first, lines[0] if lines else "no rows"
 
 
 def check(history: History, where: str) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import InputError
-from ..files import read_text
 from ..study import Case, conditions_digest
+from ..text_table import read_text_table
 from ..yaml_text import read_mapping
 
 TABLE, RECORD = "sobol.csv", "record.yaml"
@@ -31,14 +29,16 @@ def input_spreads(hierarchy_dir: Path, cases: Sequence[Case]) -> dict[str, dict[
         return {}
     by_id = {case.case_id: case for case in cases}
     found: dict[str, dict[str, float]] = {}
-    for line, row in enumerate(csv.DictReader(io.StringIO(read_text(table))), start=2):
-        case = by_id.get(row.get("run") or "")
+    rows = read_text_table(table)
+    rows.check(("run", "quantity", "mean", "sd"))
+    for where, row in rows.records():
+        case = by_id.get(row["run"])
         if case is None:
             continue
         try:
             mean, sd = float(row["mean"]), float(row["sd"])
-        except (KeyError, ValueError):
-            raise InputError(f"{table}:{line}", "no mean and sd", "numbers in mean and sd") from None
+        except ValueError:
+            raise InputError(where, "no mean and sd", "numbers in mean and sd") from None
         if mean != 0.0:
             found.setdefault(case.path.family, {})[row["quantity"].replace(" ", "_")] = sd / abs(mean)
     return found

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import InputError, one_line
-from ..files import read_text
 from ..reference import load_published
 from ..study import Case, LoadedStudy
 from ..study.typical import by_family
+from ..text_table import read_text_table
 from ..units import IN_MM
 from .claims.claim import Claim, Evidence
 from .claims.published import published_claims
@@ -233,11 +232,11 @@ def _free_rolling_creep(spring_dir: Path, variants: Sequence[str]) -> dict[tuple
         path = spring_dir / variant / "summary.csv"
         if not path.is_file():
             continue
-        lines = [line for line in read_text(path).splitlines() if not line.startswith("#")]
-        for row in csv.DictReader(lines):
-            value = row.get("free_rolling_creep_ratio") or ""
-            if value and row.get("case_id"):
-                found[f"spring:{variant}", row["case_id"]] = float(value)
+        table = read_text_table(path)
+        table.check(("case_id", "free_rolling_creep_ratio"))
+        for _, row in table.records():
+            if row["free_rolling_creep_ratio"]:
+                found[f"spring:{variant}", row["case_id"]] = float(row["free_rolling_creep_ratio"])
     return found
 
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, cast
 
 from ..errors import InputError, one_line
-from ..files import read_text
+from ..text_table import read_text_table
 
 PUBLISHED = Path("published") / "published.csv"
 COLUMNS = (
@@ -62,22 +60,17 @@ def load_published(folder: Path | str) -> tuple[PublishedValue, ...]:
     Raises `InputError` for a wrong header, a row of another length, a number that is none, or an id given twice.
     """
     source = Path(folder) / PUBLISHED
-    rows = csv.reader(io.StringIO(read_text(source)))
-    header = tuple(next(rows, ()))
-    if header != COLUMNS:
-        raise InputError(f"{source}:1", one_line(",".join(header), 120), "header " + ",".join(COLUMNS))
+    table = read_text_table(source)
+    table.check(COLUMNS, exactly=True)
     values: dict[str, PublishedValue] = {}
-    for line, cells in enumerate(rows, start=2):
-        if len(cells) != len(COLUMNS):
-            raise InputError(f"{source}:{line}", f"{len(cells)} cells", f"{len(COLUMNS)} cells")
-        row = dict(zip(COLUMNS, cells, strict=True))
-        numbers = {name: _number(row[name], f"{source}:{line}: {name}") for name in ("value", "low", "high")}
+    for where, row in table.records():
+        numbers = {name: _number(row[name], f"{where}: {name}") for name in ("value", "low", "high")}
         if row["comparability"] not in ("computed", "input", "context"):
-            raise InputError(f"{source}:{line}: comparability", row["comparability"], "computed, input or context")
+            raise InputError(f"{where}: comparability", row["comparability"], "computed, input or context")
         if numbers["low"] is not None and numbers["high"] is not None and numbers["low"] > numbers["high"]:
-            raise InputError(f"{source}:{line}: low", row["low"], f"at most high, {row['high']}")
+            raise InputError(f"{where}: low", row["low"], f"at most high, {row['high']}")
         if row["id"] in values:
-            raise InputError(f"{source}:{line}: id", row["id"], "an id of its own")
+            raise InputError(f"{where}: id", row["id"], "an id of its own")
         values[row["id"]] = PublishedValue(
             id=row["id"],
             quantity=row["quantity"],

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from ..columns import read_columns
 from ..compare.scores.iso18571 import grade
 from ..compare.tables import Ensemble, MetricRow, read_rows
 from ..hierarchy.tables import Level
@@ -14,7 +17,7 @@ from ..units import IN_MS
 from . import wording
 from .content import Cell, Column, Row, Table, Tone
 from .marks import Marks
-from .tables import Pair, Tables, number, pairs_of, read_table, records
+from .tables import Pair, Tables, pairs_of
 
 NORMAL = "peak_normal_force"
 LONGITUDINAL = ("peak_positive_tangential_force", "peak_negative_tangential_force")
@@ -47,8 +50,8 @@ class Costs:
         for name in study.model.models:
             file = models / name / "summary.csv"
             if file.is_file():
-                known = [number(row["cpu_s"]) for row in records(read_table(file, ("cpu_s",)))]
-                told = [value for value in known if value is not None]
+                known = read_columns(file, ("cpu_s",), gaps=True)["cpu_s"]
+                told = known[np.isfinite(known)].tolist()
                 if told:
                     found[f"model:{name}"] = sum(told) / len(told)
         return cls(found)

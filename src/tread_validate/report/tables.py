@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -113,22 +112,6 @@ def read_tables(folder: Path | str) -> Tables:
     )
 
 
-def read_table(path: Path, columns: tuple[str, ...]) -> pd.DataFrame:
-    """Read one CSV table and check that it has `columns`; wholly numeric columns become numbers, others text."""
-    try:
-        frame = pd.read_csv(io.StringIO(read_text(path)), keep_default_na=False, dtype=str)
-    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise InputError(path, error, "a CSV table with a header row") from None
-    missing = [name for name in columns if name not in frame.columns]
-    if missing:
-        raise InputError(f"{path}:1", f"no column {missing[0]}", "columns " + ", ".join(columns))
-    for name in frame.columns:
-        numbers = pd.to_numeric(frame[name].where(frame[name] != ""), errors="coerce")
-        if bool((numbers.notna() | (frame[name] == "")).all()) and bool(numbers.notna().any()):
-            frame[name] = numbers
-    return frame
-
-
 def _provenance(path: Path) -> dict[str, Any]:
     try:
         data = json.loads(read_text(path))
@@ -137,11 +120,6 @@ def _provenance(path: Path) -> dict[str, Any]:
     if not isinstance(data, dict):
         raise InputError(path, type(data).__name__, "a JSON object")
     return data
-
-
-def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    """Return the rows as mappings of column to value."""
-    return [{str(key): value for key, value in row.items()} for row in frame.to_dict("records")]
 
 
 def number(value: object) -> float | None:

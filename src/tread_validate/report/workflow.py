@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,6 +9,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..files import read_text
+from ..text_table import read_text_table
 from .tables import number
 
 MEASURED = ("s", "max_rss", "cpu_time")  # columns of a Snakemake benchmark: seconds, MB, seconds
@@ -63,11 +62,9 @@ def _times(rule: WorkflowRule, root: Path) -> list[JobTime]:
     found = []
     for file in sorted(root.glob(pattern)):
         match = names.fullmatch(file.relative_to(root).as_posix())
-        rows = csv.DictReader(io.StringIO(read_text(file)), delimiter="\t")
-        missing = [name for name in MEASURED if name not in (rows.fieldnames or ())]
-        if missing:
-            raise InputError(f"{file}:1", f"no column {missing[0]}", "columns " + ", ".join(MEASURED))
-        for row in rows:
+        table = read_text_table(file, "\t")
+        table.check(MEASURED)
+        for _, row in table.records():
             seconds, memory, cpu = (number(row[name]) for name in MEASURED)
             if seconds is not None and match is not None:
                 job = " ".join(match.groups())

@@ -12,6 +12,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..files import read_text
+from ..text_table import text_table
 from .groups import NAMES, Groups
 
 TABLE = Path(__file__).resolve().parent / "map.csv"
@@ -94,10 +95,9 @@ def table_text(points: Iterable[Point]) -> str:
 
 def read_table(text: str) -> tuple[Point, ...]:
     """Read a table back; raises `InputError` for one of another shape."""
-    rows = list(csv.DictReader(io.StringIO(text)))
-    if not rows or not {"case_id", "kind", *NAMES} <= set(rows[0]):
-        raise InputError("map", "a table without groups", f"columns case_id, kind, {', '.join(NAMES)}, errors")
-    heads = [name.removesuffix("_normal") for name in rows[0] if name.endswith("_normal")]
+    table = text_table(text, "map")
+    table.check(("case_id", "kind", *NAMES))
+    heads = [name.removesuffix("_normal") for name in table.header if name.endswith("_normal")]
     models = [head for head in heads if head != "reference"]
     try:
         return tuple(
@@ -108,7 +108,7 @@ def read_table(text: str) -> tuple[Point, ...]:
                 {each: float(row[f"reference_{each}"]) for each in ERRORS},
                 {head: {each: float(row[f"{head}_{each}"]) for each in ERRORS} for head in models},
             )
-            for row in rows
+            for _, row in table.records()
         )
     except (KeyError, ValueError, TypeError) as error:
         raise InputError("map", error, "a number in each column") from error

@@ -127,7 +127,7 @@ def test_a_spoilt_package_is_refused_with_its_place(spoil: Callable[[Path], None
 @pytest.mark.parametrize(
     ("spoil", "match"),
     [
-        (_edit("id,quantity", "key,quantity"), "header"),
+        (_edit("id,quantity", "key,quantity"), "column id"),
         (_edit("8.86", "inf"), "finite number"),
         (_edit("wlf_c2,", "wlf_c1,"), "id of its own"),
         (_edit(",3.7,3.9,", ",3.9,3.7,"), "at most high"),

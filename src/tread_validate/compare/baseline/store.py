@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -14,6 +12,7 @@ from ...errors import InputError
 from ...files import read_text, write_text
 from ...mending import mended_by
 from ...provenance import sha256_text
+from ...text_table import text_table
 from ...yaml_text import read_mapping, write_yaml
 from ..quantities import SCALARS, Noise
 from ..tables import TABLES
@@ -69,7 +68,7 @@ def save_baseline(folder: Path | str, tables: Path | str, acceptance: Acceptance
     """Write the tables as they are, thinned histories if any, and their record last: without one none loads."""
     place, source = Path(folder), Path(tables)
     texts = {name: read_text(source / f"{name}.csv") for name in TABLES}
-    parsed = {name: _cells(text, source / f"{name}.csv") for name, text in texts.items()}
+    parsed = {name: _rows(text, source / f"{name}.csv") for name, text in texts.items()}
     record = {
         "schema_version": SCHEMA_VERSION,
         **asdict(acceptance),
@@ -106,7 +105,7 @@ def _load(place: Path) -> Baseline:
         text = read_text(path)
         if not isinstance(facts, dict) or sha256_text(text) != facts.get("sha256"):
             raise InputError(path, "a table of another checksum", f"the one that {RECORD} was written for")
-        tables[str(name)] = _cells(text, path)
+        tables[str(name)] = _rows(text, path)
         if len(tables[str(name)]) != facts.get("rows"):
             raise InputError(path, f"{len(tables[str(name)])} rows", f"{facts.get('rows')}, as {RECORD} says")
     if not tables.get("errors") or not tables.get("peaks"):
@@ -162,11 +161,5 @@ def _noise(data: Mapping[str, Any], path: Path) -> dict[str, Noise]:
     return found
 
 
-def _cells(text: str, path: Path) -> tuple[Cells, ...]:
-    reader = csv.DictReader(io.StringIO(text))
-    rows = []
-    for line, row in enumerate(reader, start=2):
-        if None in row or None in row.values():
-            raise InputError(f"{path}:{line}", "a row of another length", f"{len(reader.fieldnames or ())} cells")
-        rows.append(row)
-    return tuple(rows)
+def _rows(text: str, path: Path) -> tuple[Cells, ...]:
+    return tuple(row for _, row in text_table(text, path).records())

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from pathlib import Path
 
 from ...bounds import bounded
 from ...errors import InputError, one_line
-from ...files import read_text
+from ...text_table import read_text_table
 from .fit import Peak
 
 NUMBERS = ("temperature_degC", "interference_mm", "speed_m_s")
@@ -25,20 +23,11 @@ def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
     `InputError` for a missing column, no rows, a value that is no finite number, a force that is not positive, and for
     two rows of one run.
     """
-    lines = [line for line in read_text(path).splitlines() if not line.startswith("#")]
-    separator = max(";\t,", key=lines[0].count) if lines else ","
-    reader = csv.DictReader(io.StringIO("\n".join(lines)), delimiter=separator)
-    header = reader.fieldnames or ()
-    needed = ("shape", *NUMBERS, FORCE)
-    missing = [name for name in needed if name not in header]
-    if missing:
-        raise InputError(f"{path}:1", one_line("columns " + ", ".join(header), 120), f"column {missing[0]}")
+    table = read_text_table(path, ";\t,")
+    table.check(("shape", *NUMBERS, FORCE))
     found: dict[str, list[Peak]] = {}
     seen: set[tuple[object, ...]] = set()
-    for line, row in enumerate(reader, start=2):
-        where = f"{path}:{line}"
-        if None in row or None in row.values():
-            raise InputError(where, "a row of another length", f"{len(header)} cells")
+    for where, row in table.records():
         if not _on_rig(row):
             continue
         temperature, interference, speed = (_number(row[name], name, where) for name in NUMBERS)
@@ -50,7 +39,7 @@ def read_peaks(path: Path | str) -> dict[str, list[Peak]]:
         if key in seen:
             raise InputError(where, "the same run again", "one row for each shape, temperature, interference and speed")
         seen.add(key)
-        case_id = row.get("case_id") or f"row {line}"
+        case_id = row.get("case_id") or f"row {where.rpartition(':')[2]}"
         found.setdefault(source, []).append(Peak(case_id, row["shape"], temperature, interference, speed, force))
     if not found:
         raise InputError(path, "a header without rows of the rig", "at least one run")

@@ -9,8 +9,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ...errors import InputError, one_line
-from ...files import read_text, write_text
+from ...errors import InputError
+from ...files import write_text
+from ...text_table import read_text_table
 from .row import TableRow
 
 DIGITS = 7
@@ -64,21 +65,12 @@ def read_rows(path: Path | str, kind: type[AnyRow]) -> tuple[AnyRow, ...]:
     Raises `InputError`, with file and line, for a missing or another column, a row of another length, a cell that is
     not of its column's kind, and two rows with one key.
     """
-    reader = csv.reader(io.StringIO(read_text(path)))
-    header = tuple(next(reader, ()))
-    expected = kind.header()
-    if header != expected:
-        missing = [name for name in expected if name not in header]
-        strange = [name for name in header if name not in expected]
-        found = f"no column {missing[0]}" if missing else f"column {one_line(strange[0], 60)}" if strange else "order"
-        raise InputError(f"{path}:1", found, "columns " + ", ".join(expected))
+    table = read_text_table(path)
+    table.check(kind.header(), exactly=True)
     rows: list[AnyRow] = []
     seen: set[tuple[str, ...]] = set()
-    for line, cells in enumerate(reader, start=2):
-        where = f"{path}:{line}"
-        if len(cells) != len(header):
-            raise InputError(where, f"{len(cells)} cells", f"{len(header)}, as in the header")
-        row = kind.read(dict(zip(header, cells, strict=True)), where)
+    for where, cells in table.records():
+        row = kind.read(cells, where)
         if row.identity() in seen:
             raise InputError(where, f"{' '.join(row.identity())} again", "each row once")
         seen.add(row.identity())

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator
 
+from ...columns import read_columns
 from ...geometry import path_of
 from ...palette import VERMILION, Look
 from ...plotting import HEIGHT, WIDTH
@@ -21,31 +22,49 @@ from ...study import Case
 from ...units import IN_MS, MM, MPA
 from .. import wording
 from ..content import Mark
-from ..tables import read_table
 from .style import Drawn, draw, draw_pair
+
+Array = NDArray[np.float64]
 
 STATIONS = 121  # along the face, and across it
 FEWEST = 6  # stations across: at a sharp corner there are too few for a mean
-FACE_COLUMNS = ("x_m", "y_m", "z_m", "pressure_Pa", "traction_x_Pa", "traction_z_Pa", "state")
+SLIPS = 2  # state of a node that slides
 
 
-def read_face(file: Path) -> pd.DataFrame | None:
-    """Read the contact face of an FE run, with ``place_m`` from the end that makes contact first; None without one.
+@dataclass(frozen=True)
+class FaceTable:
+    """The nodes of the contact face of an FE run, half way between the first and the last contact; all (n,) arrays.
 
-    Places are those of the undeformed block; the first end to touch has the largest x. The instant is half way
-    between the first and the last contact.
+    Attributes
+    ----------
+    place, across : m
+        From the end that makes contact first, and across the block; of the undeformed block.
+    pressure, shear : Pa
+        Shear is positive towards the leading edge.
+    slides : bool
     """
+
+    place: Array
+    across: Array
+    pressure: Array
+    shear: Array
+    slides: NDArray[np.bool_]
+
+
+def read_face(file: Path) -> FaceTable | None:
+    """Read the contact face of an FE run; None without one. The first end to touch has the largest x."""
     if not file.is_file():
         return None
-    face = read_table(file, FACE_COLUMNS)
-    return face.assign(place_m=face["x_m"].max() - face["x_m"]) if len(face) else None
+    face = read_columns(file, ("x_m", "z_m", "pressure_Pa", "traction_x_Pa", "state"))
+    x = face["x_m"]
+    return FaceTable(x.max() - x, face["z_m"], face["pressure_Pa"], -face["traction_x_Pa"], face["state"] == SLIPS)
 
 
 def pressure(
     folder: Path,
     case: Case,
     label: str,
-    face: pd.DataFrame | None,
+    face: FaceTable | None,
     engine: str,
     looks: Mapping[str, Look],
     marks: tuple[Mark, ...],
@@ -93,12 +112,9 @@ def _face_of(case: Case, instant: float, source: str) -> FaceAtInstant | None:
     return face_at(case, instant, variant=variant) if kind == "spring" and variant in BUILT_IN else None
 
 
-def pressure_map(
-    folder: Path, case: Case, label: str, face: pd.DataFrame, engine: str, marks: tuple[Mark, ...]
-) -> Drawn:
+def pressure_map(folder: Path, case: Case, label: str, face: FaceTable, engine: str, marks: tuple[Mark, ...]) -> Drawn:
     """Draw the contact pressure over the face of an FE run."""
-    place, across = face["place_m"].to_numpy(dtype=float) / MM, face["z_m"].to_numpy(dtype=float) / MM
-    values = face["pressure_Pa"].to_numpy(dtype=float) / MPA
+    place, across, values = face.place / MM, face.across / MM, face.pressure / MPA
     top = float(np.quantile(values, 0.97)) or 1.0
 
     def paint(axes: Axes) -> None:
@@ -106,9 +122,8 @@ def pressure_map(
             place, across, values, shading="gouraud", cmap="cividis", vmin=0.0, vmax=top, rasterized=True
         )
         axes.figure.colorbar(shown, ax=axes, label="contact pressure, MPa", extend="max", shrink=0.85)
-        slips = face["state"].to_numpy() == 2
-        if slips.any():
-            axes.plot(place[slips], across[slips], ".", ms=3, color=VERMILION, label="slipping")
+        if face.slides.any():
+            axes.plot(place[face.slides], across[face.slides], ".", ms=3, color=VERMILION, label="slipping")
             axes.legend(loc="upper right", frameon=True)
         axes.set(aspect="equal", xlabel="distance from the end that makes contact first, mm", ylabel="across, mm")
         axes.grid(visible=False)
@@ -121,15 +136,15 @@ def pressure_map(
     return draw(folder, key, "Contact pressure over the face, FE", caption, paint, marks, size, numbers=numbers)
 
 
-def _means(face: pd.DataFrame | None) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None:
+def _means(face: FaceTable | None) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] | None:
     """Return place, mean pressure and mean shear (positive towards the leading edge) of lines across the face.
 
     The nodal values are interpolated linearly, so that the nodes need not stand in rows across.
     """
     if face is None:
         return None
-    nodes = face[["place_m", "z_m"]].to_numpy(dtype=float)
-    values = face[["pressure_Pa", "traction_x_Pa"]].to_numpy(dtype=float) * np.array([1.0, -1.0])
+    nodes = np.column_stack([face.place, face.across])
+    values = np.column_stack([face.pressure, face.shear])
     places = np.linspace(nodes[:, 0].min(), nodes[:, 0].max(), STATIONS)
     across = np.linspace(nodes[:, 1].min(), nodes[:, 1].max(), STATIONS)
     grid = LinearNDInterpolator(nodes, values)(*np.meshgrid(places, across, indexing="ij"))

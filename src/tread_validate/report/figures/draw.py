@@ -6,8 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import pandas as pd
-
 from ...compare.baseline.histories import Histories
 from ...compare.baseline.movement import Movement
 from ...compare.rig_peaks import RigPeak
@@ -24,6 +22,7 @@ from ..table1 import regression_sources
 from ..tables import Tables, pairs_of
 from . import contact, errors, forces, geometry, material, regressions
 from .before_after import before_after, worst
+from .contact import FaceTable
 from .overview import overview
 from .style import Drawn
 
@@ -173,7 +172,7 @@ class Drawings:
                 found.append(contact.pressure_map(self.folder, case, label, face, engine, self._of(case)))
         return tuple(found)
 
-    def _face(self, case_id: str) -> tuple[pd.DataFrame | None, str]:
+    def _face(self, case_id: str) -> tuple[FaceTable | None, str]:
         """Return the contact face of the first engine with a current run of the case, and the engine's name."""
         for source in self.histories.get(case_id, {}):
             if source.startswith("fe:"):
