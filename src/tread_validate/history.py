@@ -176,7 +176,8 @@ class History:
                 raise InputError(where, values[row], "a finite number (leave out a column that is not known)")
         try:
             time, normal, tangential, slipping = (table.values.get(name) for name in COLUMNS)
-            assert time is not None and normal is not None  # they are needed
+            assert time is not None  # they are needed
+            assert normal is not None
             return cls.of(time, normal, tangential, slipping, table.comments)
         except InputError as error:
             where = error.where.replace("history", str(path), 1)
