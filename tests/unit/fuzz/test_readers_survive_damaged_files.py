@@ -154,7 +154,7 @@ READERS = (
         lambda h: rising(h.time) and finite(h.normal_force) and given_or_not(h.tangential_force, h.slipping_fraction),
     ),
     Reader(
-        "DMA sweeps", ".csv", file("reference_data/material/synthetic_sweeps.csv"), read_export,
+        "DMA sweeps", ".csv", file("reference_data/material/synthetic_sweeps.csv"), lambda path: read_export(path)[0],
         lambda sweeps: all(rising(s.angular_frequency) and (s.storage_modulus > 0).all() for s in sweeps),
     ),
     Reader(

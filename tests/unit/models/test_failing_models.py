@@ -27,7 +27,7 @@ FAULTS = {
     "dies of a signal": ("import os\nif first: os.kill(os.getpid(), 9)\n", "signal SIGKILL"),
     "writes nothing": ("if first: sys.exit(0)\n", "got no history"),
     "writes NaN": ("if first: rows[7] = (rows[7][0], float('nan'), 0.0)\n", "normal_force, sample 8: got nan"),
-    "writes infinity": ("if first: rows[7] = (rows[7][0], float('inf'), 0.0)\n", "normal_force, sample 8: got inf"),
+    "writes infinity": ("if first: rows[7] = (rows[7][0], float('inf'), 0.0)\n", ":9: normal_force_N: got 'inf'"),
     "has compression negative": ("if first: rows = [(t, -n, q) for t, n, q in rows]\n", "expected compression to be"),
     "feels nothing": ("if first: rows = [(t, 0.0, q) for t, n, q in rows]\n", "no force at any time"),
     "stops half way": ("if first: rows = rows[:20]\n", "expected the whole pass"),
