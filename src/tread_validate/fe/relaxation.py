@@ -1,24 +1,27 @@
 """Prony series as recursions: shift by temperature, merge what is slower than the run, coefficients of a step.
 
 A term g exp(-t/tau) under a strain that is linear over a step obeys h <- exp(-dt/tau) h + g (tau/dt)(1 - exp(-dt/tau))
-de exactly (Taylor, Pister and Goudreau, doi:10.1002/nme.1620020106). Terms slower than the run look like a low-order
-polynomial in time: together with the long-term modulus they are replaced by the Gauss quadrature of their spectrum,
-which keeps twice as many moments as it has terms, all weights positive; the error of the relaxation modulus is bounded
-below `TOLERANCE` of the instantaneous one at every time of the run.
+de exactly (Taylor, Pister and Goudreau, doi:10.1002/nme.1620020106). The slow terms of a run, many or few, are replaced
+together with the long-term modulus by the Gauss quadrature of their spectrum, which keeps twice as many moments as it
+has terms, all weights positive: the shortest whose relaxation modulus is found to lie within `TOLERANCE` of the
+instantaneous one at every time of the run.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh_tridiagonal
 
 from .material import Material
 
 Floats = NDArray[np.float64]
 TOLERANCE = 1e-6
+"""Largest error of the relaxation modulus, of the instantaneous one."""
+LOOKS = 500
+"""Times, evenly spaced in their logarithm, at which it is looked for: an error is as smooth as its exponentials."""
 
 
 @dataclass(frozen=True)
@@ -81,22 +84,22 @@ def relaxation_of(material: Material, temperature: float, duration: float) -> Re
 
 def _merge_slow(weights: Floats, times: Floats, long_term: float, duration: float) -> tuple[Floats, Floats, Floats]:
     """Replace the slow end by the shortest quadrature within `TOLERANCE`, if that saves terms."""
-    best = (times.size, times.size, 0)
+    time = np.append(0.0, np.geomspace(1e-3 * min(float(times[0]), duration), duration, LOOKS))
+    fading = np.exp(-np.multiply.outer(1.0 / times, time))
+    best, kept, rates = times.size, weights, np.zeros(0)
     for first in range(times.size):
-        total = float(weights[first:].sum()) + long_term
-        for points in range(1, times.size - first + 1):
-            x = duration / times[first] / 4.0
-            bound = 4.0 * total * x ** (2 * points) / math.factorial(2 * points)
-            if bound <= TOLERANCE and first + points < best[0]:
-                best = (first + points, first, points)
-    count, first, points = best
-    if count == times.size:
+        nodes, measure = np.append(1.0 / times[first:], 0.0), np.append(weights[first:], long_term)
+        wanted = (weights[first:, None] * fading[first:]).sum(axis=0) + long_term
+        for points in range(1, best - first):
+            found, merged = gauss_rule(nodes, measure, points)
+            error = (merged[:, None] * np.exp(-np.multiply.outer(found, time))).sum(axis=0) - wanted
+            if np.abs(error).max() <= TOLERANCE:
+                best, kept, rates = first + points, np.append(weights[:first], merged), found
+                break
+    if best == times.size:
         return np.column_stack([weights, weights]), times, np.array([long_term, long_term])
-    rates, merged = gauss_rule(np.append(1.0 / times[first:], 0.0), np.append(weights[first:], long_term), points)
-    kept = np.append(weights[:first], merged)
-    with np.errstate(divide="ignore"):
-        slow = 1.0 / np.maximum(rates, 1e-12 / duration)
-    return np.column_stack([kept, kept]), np.append(times[:first], slow), np.zeros(2)
+    slow = 1.0 / np.maximum(rates, 1e-12 / duration)
+    return np.column_stack([kept, kept]), np.append(times[: best - rates.size], slow), np.zeros(2)
 
 
 def gauss_rule(nodes: Floats, weights: Floats, points: int) -> tuple[Floats, Floats]:
@@ -114,14 +117,16 @@ def gauss_rule(nodes: Floats, weights: Floats, points: int) -> tuple[Floats, Flo
     for i in range(points):
         basis[i] = vector
         image = nodes / scale * vector
-        diagonal[i] = image @ vector
+        diagonal[i] = (image * vector).sum()
         for _ in range(2):
-            image = image - basis[: i + 1].T @ (basis[: i + 1] @ image)
+            for known in basis[: i + 1]:
+                image = image - (known * image).sum() * known
         if i + 1 < points:
-            beside[i] = np.linalg.norm(image)
+            beside[i] = np.sqrt((image * image).sum())
             vector = image / beside[i]
-    matrix = np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1)
-    values, vectors = np.linalg.eigh(matrix)
+    values, vectors = eigh_tridiagonal(
+        diagonal, beside, lapack_driver="stev"
+    )  # no BLAS: the same bits on any processor
     return np.maximum(values, 0.0) * scale, total * vectors[0] ** 2
 
 
