@@ -39,7 +39,7 @@ def simulation_of(case: Case, folder: Path, terms: int | None = None) -> Simulat
     deck.write(case, folder)
     source = folder / f"{case.case_id}.inp"
     if terms is not None:
-        # `terms` recursions that no merging can spare: all within the run
+        # all within the run; what of them no merging can spare is told
         lines = "".join(
             f"{0.9 / terms!r}, {0.9 / terms!r}, {tau!r}\n" for tau in np.logspace(-5.3, -2.3, terms).tolist()
         )
@@ -48,8 +48,8 @@ def simulation_of(case: Case, folder: Path, terms: int | None = None) -> Simulat
     return Simulation(read_model(source), compile_vfric(folder / "vfric.f"))
 
 
-def cost_of_a_step(folder: Path, terms: int) -> float:
-    """Return us per element and step with `terms` recursions."""
+def cost_of_a_step(folder: Path, terms: int) -> tuple[float, int]:
+    """Return us per element and step with a series of `terms` terms, and the recursions that it takes."""
     simulation = simulation_of(case_of(BELT), folder, terms)
     simulation._begin(0, simulation.model.steps[0])
     dt = simulation._increment(simulation.model.steps[0], simulation.model.steps[0].period)
@@ -62,7 +62,7 @@ def cost_of_a_step(folder: Path, terms: int) -> float:
         best = min(best, time.process_time() - begun)
     cost = best / 200 / elements * 1e6
     print(f"{simulation.blocks.terms} recursions, {elements} elements: {cost:.3f} us per element and step")
-    return cost
+    return cost, simulation.blocks.terms
 
 
 def whole_pass(case_id: str, symmetry: str, folder: Path) -> float:
@@ -108,8 +108,9 @@ def main() -> None:
             fine_mesh(Path(folder))
         return
     with tempfile.TemporaryDirectory() as folder:
-        few, many = (cost_of_a_step(Path(folder), terms) for terms in (8, 24))
-        print(f"one recursion adds {1e3 * (many - few) / 16:.2f} ns, of {1e3 * few:.0f} ns with eight")
+        (few, fewer), (many, more) = (cost_of_a_step(Path(folder), terms) for terms in (8, 24))
+        adds = 1e3 * (many - few) / (more - fewer)
+        print(f"one recursion adds {adds:.2f} ns, of {1e3 * few:.0f} ns with {fewer}")
     for case_id in (BELT, RIG):
         with tempfile.TemporaryDirectory() as folder:
             half, whole = (whole_pass(case_id, symmetry, Path(folder)) for symmetry in ("auto", "full"))
