@@ -27,9 +27,8 @@ def command(
     from ..errors import InputError
     from ..history import History
     from ..reference.filing import read_record
-    from ..reference.mesh_errors import document
+    from ..reference.mesh_errors import document, write_mesh_study
     from ..study import load_study
-    from ..yaml_text import write_yaml
 
     if len(histories) != 3 or len(size) != 3:
         raise InputError("mesh-error", f"{len(histories)} histories, {len(size)} sizes", "three of each")
@@ -47,7 +46,7 @@ def command(
     if used not in sizes:
         raise InputError("--size", sizes, f"one of them the study's, {used:g} mm")
     numbers = mesh_study(sizes, [History.read_csv(file) for file in files], used)
-    write_yaml(output, document(case, loaded.model.name, records, sizes, numbers))
+    write_mesh_study(output, document(case, loaded.model.name, records, sizes, numbers))
     typer.echo(f"{case.case_id}: relative discretisation uncertainty at {used:g} mm")
     for name, error in numbers["mesh_error"].items():
         quantity = numbers["quantities"].get(name)

@@ -27,22 +27,21 @@ def mesh_rows(references: Path, engine: str) -> list[dict[str, Any]]:
     by_case = {record.get("case_id"): record for record in records}
     rows = []
     for study in store.mesh_errors.studies:
-        if study["applies_to"]["engine"] != engine:
+        if study.applies_to.engine != engine:
             continue
-        run_in_use = by_case.get(study.get("case_id"), {})
+        run_in_use = by_case.get(study.case_id, {})
         seconds = None
         if costs and {"elements", "increments"} <= set(run_in_use):
             seconds = min(costs) * run_in_use["elements"] * run_in_use["increments"]
-        quantities = study.get("quantities", {})
-        normal, impulse = quantities.get("peak_normal_force"), quantities.get("normal_impulse")
+        normal, impulse = study.quantities.get("peak_normal_force"), study.quantities.get("normal_impulse")
         if normal is None or impulse is None:
             continue
-        for k, size in enumerate(study["sizes_mm"]):
-            scale = (study["element_size_mm"] / size) ** COST_GROWTH
+        for k, size in enumerate(study.sizes_mm):
+            scale = (study.element_size_mm / size) ** COST_GROWTH
             entries = (
-                study["case_id"], float(size), None if seconds is None else seconds * scale,
-                float(normal["values"][k]), normal["values"][k] / normal["limit"] - 1.0,
-                impulse["values"][k] / impulse["limit"] - 1.0, "error against the limit of three meshes",
+                study.case_id, size, None if seconds is None else seconds * scale,
+                normal.values[k], normal.values[k] / normal.limit - 1.0,
+                impulse.values[k] / impulse.limit - 1.0, "error against the limit of three meshes",
             )  # fmt: skip
             rows.append(dict(zip(FeMesh.header(), entries, strict=True)))
     return rows

@@ -109,7 +109,7 @@ def _migrate_mesh(
         "schema": SCHEMA,
         "case_id": case.case_id,
         "study": study,
-        "applies_to": applies_to(case, "embedded"),
+        "applies_to": applies_to(case, "embedded").model_dump(),
         "code": UNKNOWN,
         **{key: value for key, value in data.items() if key not in ("kind", "case_id")},
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ from ..errors import InputError
 from ..files import read_text, write_text
 from ..hierarchy.tables import TABLES, Level
 from ..reference import FeStore
+from ..reference.mesh_errors import MeshQuantity, MeshStudy
 from ..source_code import code_digest
 from ..study import LoadedStudy, conditions_digest
 from ..units import IN_MS
@@ -22,7 +23,6 @@ from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Sectio
 from .inputs import plain_table
 from .marks import Marks
 from .svg import lighter
-from .tables import number
 
 FIGURES = (
     ("pareto", "Cost and error of each model level", "Error of the peak normal force against the time of one pass."),
@@ -132,11 +132,11 @@ def mesh_table(reference: Path) -> Table | None:
     """Return the three-mesh studies of the FE runs in the reference data package; None without any."""
     rows: list[Row] = []
     widest = 0
-    for data in FeStore(reference).mesh_errors.studies:
-        sizes = [f"{size:g} mm" for size in data.get("sizes_mm", [])]
+    for study in FeStore(reference).mesh_errors.studies:
+        sizes = [f"{size:g} mm" for size in study.sizes_mm]
         widest = max(widest, len(sizes))
-        for name, item in data["quantities"].items():
-            rows.append(_mesh_row(str(name), item, data, sizes))
+        for name, item in study.quantities.items():
+            rows.append(_mesh_row(name, item, study, sizes))
     if not rows:
         return None
     columns = (
@@ -153,12 +153,10 @@ def mesh_table(reference: Path) -> Table | None:
     return Table("meshes", "Mesh error of the FE runs", columns, tuple(rows), caption, folded=True)
 
 
-def _mesh_row(name: str, item: Mapping[str, Any], data: Mapping[str, Any], sizes: list[str]) -> Row:
-    values = [number(value) for value in item.get("values", [])]
-    limit, order = number(item.get("limit")), number(item.get("order"))
-    error = number(data.get("mesh_error", {}).get(name))
+def _mesh_row(name: str, item: MeshQuantity, study: MeshStudy, sizes: list[str]) -> Row:
+    limit, order, error = item.limit, item.order, study.mesh_error.get(name)
     cells = [Cell(wording.quantity(name))]
-    for value, size in zip(values, sizes, strict=True):
+    for value, size in zip(item.values, sizes, strict=True):
         cells.append(Cell(wording.plain(value, 4), sort=value, note=size))
     cells += [
         Cell(wording.plain(limit, 4), sort=limit),
@@ -169,5 +167,5 @@ def _mesh_row(name: str, item: Mapping[str, Any], data: Mapping[str, Any], sizes
         ),
         Cell(wording.percent(error, 2), sort=error),
     ]
-    group = f"{data.get('case_id', '')}, {number(data.get('element_size_mm')) or 0:g} mm in use"
+    group = f"{study.case_id}, {study.element_size_mm:g} mm in use"
     return Row(tuple(cells), group=group)

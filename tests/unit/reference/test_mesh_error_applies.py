@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tread_validate.reference.mesh_errors import MeshErrors, document, file_mesh_study
+from tread_validate.reference.mesh_errors import MeshErrors, document, file_mesh_study, write_mesh_study
 from tread_validate.study import load_study
-from tread_validate.yaml_text import write_yaml
 
 ERRORS = {"peak_normal_force": 0.012, "normal_impulse": 0.011}
 
@@ -24,7 +23,7 @@ def test_a_study_of_twice_the_element_size_does_not_get_the_mesh_error_of_the_fi
     case = next(case for case in cases if case.path.family == "rig" and case.block.shape == "rectangle")
     record = {"engine": "embedded", "code": "0" * 16, "deck_digest": "0" * 64, "history_sha256": "0" * 64}
     numbers = {"mesh_error": ERRORS, "quantities": {}}
-    write_yaml(tmp_path / "made.yaml", document(case, "liu2010", [record] * 3, [2.0, 1.4, 1.0], numbers))
+    write_mesh_study(tmp_path / "made.yaml", document(case, "liu2010", [record] * 3, [2.0, 1.4, 1.0], numbers))
     file_mesh_study(tmp_path / "mesh", tmp_path / "made.yaml")
     found = MeshErrors(tmp_path / "mesh")
     size = case.deck.element_size_mm
