@@ -21,7 +21,7 @@ from functools import cache
 from pathlib import Path
 
 from .errors import InputError
-from .syntax import Module, read_module
+from .syntax import KEPT, Module, read_module
 
 PACKAGE = Path(__file__).resolve().parent
 DATA = (".j2", ".f", ".inc", ".typ", ".css", ".js", ".yaml", ".json")
@@ -72,6 +72,7 @@ def digest_of(entries: tuple[str, ...], root: Path = PACKAGE) -> str:
         total.update(f"{name} {graph.module(name).digest}\n".encode())
     for file in sorted(graph.data_files(names)):
         total.update(f"{file.relative_to(root).as_posix()} {hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
+    KEPT.save()
     return total.hexdigest()[:16]
 
 

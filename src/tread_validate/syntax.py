@@ -10,9 +10,11 @@ from functools import lru_cache
 from pathlib import Path
 
 from .errors import InputError
+from .syntax_cache import SyntaxCache
 
 OUTERMOST = "tread_validate"
 IGNORED_FIELDS = frozenset({"type_params", "type_comment", "kind", "ctx", "type_ignores"})
+KEPT = SyntaxCache(Path(__file__))
 STATEMENTS = ("body", "orelse", "handlers", "finalbody", "cases")
 """Fields of a syntax tree that hold statements: imports stand nowhere else."""
 
@@ -53,8 +55,29 @@ def read_module(file: Path, name: str, *, names_only: bool = False) -> Module:
         Leave imports and ``__all__`` out of the digest: for an ``__init__`` that a part only comes through.
     """
     package = name if file.name == "__init__.py" else name.rpartition(".")[0]
+    source = file.read_text(encoding="utf-8")
+    key = KEPT.key(source, package, str(names_only))
+    found = KEPT.get(key)
+    if found is None:
+        module = _read(file, source, package, names_only)
+        KEPT.put(
+            key, [module.digest, module.imports, sorted(module.defines), sorted(module.uses_imports), module.passes_on]
+        )
+        return module
+    digest, imports, defines, uses, passed = found
+    targets = tuple((target, alias) for target, alias in imports)
+    return Module(
+        digest,
+        targets,
+        frozenset(defines),
+        frozenset(uses),
+        {alias: (one, two) for alias, (one, two) in passed.items()},
+    )
+
+
+def _read(file: Path, source: str, package: str, names_only: bool) -> Module:
     try:
-        return _module(file.read_text(encoding="utf-8"), package, names_only)
+        return _module(source, package, names_only)
     except SyntaxError as error:
         raise InputError(f"{file}:{error.lineno}", error.msg, "Python source") from None
 

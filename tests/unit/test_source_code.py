@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from tread_validate import source_code
+from tread_validate import source_code, syntax
 from tread_validate.errors import InputError
 from tread_validate.source_code import PACKAGE, PARTS, Graph, code_digest, digest_of
 from tread_validate.spring.variants import BUILT_IN, COMMON
+from tread_validate.syntax_cache import SyntaxCache
 
 VARIANTS = {name: (*COMMON, f"spring.{place.partition(':')[0]}") for name, (place, _) in BUILT_IN.items()}
 
@@ -114,3 +115,29 @@ def test_an_unknown_part_is_refused() -> None:
     """One line with the parts that there are."""
     with pytest.raises(InputError, match="got engine, expected one of study, material"):
         code_digest("engine")
+
+
+def test_digests_do_not_depend_on_what_is_kept_of_earlier_runs(
+    copy: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without a cache, with an empty one, a full one, and one that is no JSON: the same; an edit is seen through it."""
+
+    def now(folder: str) -> dict[str, str]:
+        monkeypatch.setenv("TREAD_VALIDATE_CACHE", folder)
+        monkeypatch.setattr(syntax, "KEPT", SyntaxCache(Path(syntax.__file__)))
+        monkeypatch.setattr(source_code, "KEPT", syntax.KEPT)
+        return digests(copy, ("friction", "paper"))
+
+    bare = now("off")
+    kept = str(tmp_path)
+    assert now(kept) == bare
+    (file,) = (tmp_path / "syntax").iterdir()
+    assert now(kept) == bare
+    path = copy / "friction" / "law.py"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text + "\nEDITED = 1\n", encoding="utf-8")
+    assert now(kept) == now("off") != bare
+    path.write_text(text, encoding="utf-8")
+    assert now(kept) == bare
+    file.write_text('{"half', encoding="utf-8")
+    assert now(kept) == bare

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,6 +96,6 @@ def groups_of(case: Case) -> Groups:
 
 def coordinates(groups: Groups) -> Array:
     """Return the groups as numbers to measure distances with, (11,)."""
-    values = asdict(groups)
+    values = {name: getattr(groups, name) for name in NAMES}
     values["poisson"] = 1.0 - 2.0 * groups.poisson
     return np.array([values[name] if name in LINEAR else math.log(max(values[name], 1e-12)) for name in NAMES])
