@@ -14,6 +14,7 @@ import numpy as np
 from ..geometry import path_of
 from ..study import Case
 from .block_pass import BlockPass, prepare
+from .condensed.mesh_body import mesh_file_of
 from .condensed.motion import free_shape
 from .condensed.store import converged_ratios
 from .stiffness import StiffnessRatios, pressure_theory, shear_theory
@@ -21,7 +22,8 @@ from .stiffness import StiffnessRatios, pressure_theory, shear_theory
 
 def ratios(case: Case) -> StiffnessRatios:
     """Return the stiffness ratios of the case's block from a static solve in its stress-free shape."""
-    return converged_ratios(case.block, free_shape(path_of(case), case.block), case.compound.poissons_ratio)
+    shape = free_shape(path_of(case), case.block)
+    return converged_ratios(case.block, shape, case.compound.poissons_ratio, mesh_file_of(case))
 
 
 def prepare_shape_factor(case: Case) -> BlockPass:

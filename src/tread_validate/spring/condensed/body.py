@@ -115,7 +115,7 @@ class Body:
 
     def mount_shapes(self) -> Array:
         """Return the (3 n, 2 k) displacement of the mount's nodes for unit displacement of each knot."""
-        n, k = self.along.size, self.knots.size
+        n, k = self.mount_along.size, self.knots.size
         cell = np.clip(np.searchsorted(self.knots, self.mount_along, side="right") - 1, 0, k - 2)
         weight = (self.mount_along - self.knots[cell]) / (self.knots[cell + 1] - self.knots[cell])
         shapes = np.zeros((n, 3, 2, k))

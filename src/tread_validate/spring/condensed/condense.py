@@ -151,13 +151,13 @@ def held_dofs(body: Body) -> NDArray[np.bool_]:
     return held
 
 
-def assemble(body: Body, poissons_ratio: float) -> csr_array:
+def assemble(body: Body, poissons_ratio: float, some: slice = slice(None)) -> csr_array:
     """Return the stiffness of the whole body in m, per Pa of Young's modulus, with a support on the plane of symmetry.
 
-    Supported degrees of freedom have a 1 on the diagonal and nothing else.
+    `some` are the elements that count. Supported degrees of freedom have a 1 on the diagonal and nothing else.
     """
-    element = IncompatibleField(body.nodes[body.elements], poissons_ratio).stiffness()
-    dofs = dofs_of(body.elements)
+    element = IncompatibleField(body.nodes[body.elements[some]], poissons_ratio).stiffness()
+    dofs = dofs_of(body.elements[some])
     size = 3 * body.nodes.shape[0]
     rows, columns = np.repeat(dofs, 24, axis=1).ravel(), np.tile(dofs, (1, 24)).ravel()
     whole = csr_array(coo_array((element.ravel(), (rows, columns)), shape=(size, size)))

@@ -80,6 +80,11 @@ def lame_constants(youngs_modulus: float, poissons_ratio: float) -> tuple[float,
     return 2.0 * shear * poissons_ratio / (1.0 - 2.0 * poissons_ratio), shear
 
 
+def shape_values(point: Array) -> Array:
+    """Return the eight trilinear shape functions at a natural point, (8,)."""
+    return np.asarray(np.prod(1.0 + CORNERS * point, axis=1) / 8.0, dtype=np.float64)
+
+
 def shape_derivatives(point: Array) -> Array:
     """Return the derivatives of the eight trilinear shape functions at a natural point, (8, 3)."""
     factors = 1.0 + CORNERS * point

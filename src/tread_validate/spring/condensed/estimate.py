@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...errors import InputError
 from ...study import Case
 from .roll import CondensedSettings, FacePass, roll
 from .store import ORDER
@@ -28,6 +29,8 @@ def face_error(case: Case) -> FaceError:
     Two faces, one twice as fine; their difference over 2^p - 1 with the order p = 1.39 of the static solve (the corners
     between bonded and free faces set it). Costs a third of a pass more. It is an estimate, not a bound.
     """
+    if case.block.mesh is not None:
+        raise InputError("block", f"mesh file {case.block.mesh}", "a block given by its dimensions: a file is one face")
     fine, coarse = _scalars(roll(case, FINE)), _scalars(roll(case, COARSE))
     share = 1.0 / (2.0**ORDER - 1.0)
     normal, impulse, positive, negative = (share * abs(a - b) for a, b in zip(fine, coarse, strict=True))

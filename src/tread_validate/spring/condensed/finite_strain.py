@@ -36,8 +36,8 @@ def second_order_arrays(block: Block, shape: FreeShape, body: Body, poissons_rat
     near, share = neighbours(coarse, body)
     return {
         "gather": gathered(near, share, body.area, coarse.nodes_per_layer).T.astype(np.float32, order="C"),
-        **_shorts("gradient", stretch.T),
-        **_shorts("spread", -np.linalg.solve(stiffness, loads.T).T),
+        **shorts("gradient", stretch.T),
+        **shorts("spread", -np.linalg.solve(stiffness, loads.T).T),
         "near": near,
         "share": share,
         "bend": (bend @ _knots(coarse.knots, body.knots)).astype(np.float32),
@@ -107,7 +107,7 @@ def gathered(near: NDArray[np.int64], share: Array, area: Array, count: int) -> 
     return np.asarray(np.linalg.pinv(root[:, None] * spread) * root)
 
 
-def _shorts(name: str, matrix: Array) -> Arrays:
+def shorts(name: str, matrix: Array) -> Arrays:
     """Return a matrix as 16-bit numbers, and their unit."""
     unit = float(np.abs(matrix).max()) / 32767.0
     return {name: np.round(matrix / unit).astype(np.int16, order="C"), f"{name}_unit": np.array([unit])}

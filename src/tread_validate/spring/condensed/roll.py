@@ -17,6 +17,7 @@ from ..rubber import law_of, series_of
 from .body import Body, BodySettings, fitted
 from .inputs import SLIP, SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
 from .march import Course, Record, march, pose_at, start
+from .mesh_body import mesh_file_of
 from .motion import free_shape, motion
 from .operators import FaceOperators
 from .store import ReadyFace, ready
@@ -146,7 +147,8 @@ def scene_of(
     """Return the case's face, what stays the same over its pass (the road at rest), and its division."""
     division = settings.body or fitted(case.block, settings.density, settings.layers)
     shape = free_shape(path, case.block)
-    face = ready(case.block, shape, division, case.compound.poissons_ratio, settings.mesh_correction)
+    file = mesh_file_of(case)
+    face = ready(case.block, shape, division, case.compound.poissons_ratio, settings.mesh_correction, file)
     series, friction = series or series_of(case), friction or law_of(case)
     solid = Solid(series.long_term_modulus, series.moduli, series.relaxation_times)
     law = KernelLaw(friction.static_coefficient, *friction.kernel_arguments)

@@ -22,6 +22,8 @@ from .condense import FaceStiffness, condense
 from .finite_strain import second_order_arrays, second_order_of
 from .inputs import SecondOrder, Singles
 from .kept import Arrays, keep, kept, load
+from .mesh_body import MeshFile, body_of_mesh, hexahedra
+from .mesh_condense import condense_mesh, mesh_ratios, mesh_second_order
 from .operators import FaceOperators, inverse
 from .stuck import stuck_ratios_of
 
@@ -67,15 +69,20 @@ class ReadyFace:
 
 
 def condensed(
-    block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float, mesh_correction: bool = True
+    block: Block,
+    shape: FreeShape,
+    settings: BodySettings,
+    poissons_ratio: float,
+    mesh_correction: bool = True,
+    file: MeshFile | None = None,
 ) -> tuple[Body, FaceStiffness]:
-    """Return the block's body and the stiffness of its face."""
-    body = make_body(block, shape, settings)
-    face = condense(body, poissons_ratio)
+    """Return the block's body and the stiffness of its face; `file` is that of a block given as a mesh file."""
+    body = _body(block, shape, settings, file)
+    face = condense(body, poissons_ratio) if file is None else condense_mesh(body, poissons_ratio)
     if not mesh_correction:
         return body, face
     height = block.height_mm * MM
-    limit = np.array(converged_stuck(block, shape, poissons_ratio))
+    limit = np.array(converged_stuck(block, shape, poissons_ratio, file))
     normal, across = np.sqrt(limit / stuck_ratios(body, face, poissons_ratio, height))
     scale = np.tile([across, normal, across], body.nodes_per_layer)
     matrix = scale[:, None] * face.stiffness * scale
@@ -85,14 +92,19 @@ def condensed(
 
 @lru_cache(maxsize=12)
 def ready(
-    block: Block, shape: FreeShape, settings: BodySettings, poissons_ratio: float, mesh_correction: bool = True
+    block: Block,
+    shape: FreeShape,
+    settings: BodySettings,
+    poissons_ratio: float,
+    mesh_correction: bool = True,
+    file: MeshFile | None = None,
 ) -> ReadyFace:
     """Return the block's face ready for contact, from disk where it has been made before."""
-    key = f"{_plan(block)} {shape} {settings} {poissons_ratio!r} {mesh_correction}"
+    key = f"{_plan(block, file)} {shape} {settings} {poissons_ratio!r} {mesh_correction}"
 
     @cache
     def solved() -> FaceStiffness:
-        return condensed(block, shape, settings, poissons_ratio, mesh_correction)[1]
+        return condensed(block, shape, settings, poissons_ratio, mesh_correction, file)[1]
 
     @cache
     def compliance() -> Array:
@@ -103,13 +115,17 @@ def ready(
 
     def make() -> Arrays:
         face = solved()
+        if file is None:
+            second = second_order_arrays(block, shape, body, poissons_ratio)
+        else:
+            second = mesh_second_order(body, poissons_ratio, block.height_mm * MM)
         return {
             "follow": face.follow,
             "compliance": compliance().astype(np.float32),
-            **second_order_arrays(block, shape, body, poissons_ratio),
+            **second,
         }
 
-    body = make_body(block, shape, settings)
+    body = _body(block, shape, settings, file)
     arrays = kept("face", key, make)
     operators = FaceOperators(body, stiffness, compliance, arrays["compliance"])
     found = load("windows", key)
@@ -121,8 +137,14 @@ def ready(
 
 
 @lru_cache(maxsize=32)
-def converged_ratios(block: Block, shape: FreeShape, poissons_ratio: float) -> StiffnessRatios:
+def converged_ratios(
+    block: Block, shape: FreeShape, poissons_ratio: float, file: MeshFile | None = None
+) -> StiffnessRatios:
     """Return the block's static stiffness ratios, extrapolated from two meshes, one twice as fine (Richardson)."""
+    if file is not None:
+        key = f"{_plan(block, file)} {shape} {poissons_ratio!r}"
+        found = kept("ratios", key, lambda: {"ratios": mesh_ratios(block, shape, file, poissons_ratio, ORDER)})
+        return StiffnessRatios(*(float(value) for value in found["ratios"]))
 
     def make(settings: BodySettings) -> Array:
         body = make_body(block, shape, settings)
@@ -133,8 +155,13 @@ def converged_ratios(block: Block, shape: FreeShape, poissons_ratio: float) -> S
 
 
 @lru_cache(maxsize=32)
-def converged_stuck(block: Block, shape: FreeShape, poissons_ratio: float) -> tuple[float, ...]:
+def converged_stuck(
+    block: Block, shape: FreeShape, poissons_ratio: float, file: MeshFile | None = None
+) -> tuple[float, ...]:
     """Return the first and the third of them, normal and shear, in a third of the time."""
+    if file is not None:
+        ratios = converged_ratios(block, shape, poissons_ratio, file)
+        return ratios.normal, ratios.shear
 
     def make(settings: BodySettings) -> Array:
         body = make_body(block, shape, settings)
@@ -150,7 +177,7 @@ def _converged(
         fine, coarse = (make(_part(block, mesh)) for mesh in (FINE, COARSE))
         return {"ratios": fine + (fine - coarse) / (2.0**ORDER - 1.0)}
 
-    key = f"{_plan(block)} {shape} {poissons_ratio!r}"
+    key = f"{_plan(block, None)} {shape} {poissons_ratio!r}"
     return tuple(float(value) for value in kept(name, key, extrapolated)["ratios"])
 
 
@@ -161,6 +188,11 @@ def _part(block: Block, mesh: tuple[float, int]) -> BodySettings:
     return BodySettings(min(block.height_mm * MM / per_height, least / (1.25 * per_height)), layers)
 
 
-def _plan(block: Block) -> str:
+def _body(block: Block, shape: FreeShape, settings: BodySettings, file: MeshFile | None) -> Body:
+    return make_body(block, shape, settings) if file is None else body_of_mesh(block, shape, hexahedra(block, file))
+
+
+def _plan(block: Block, file: MeshFile | None) -> str:
     """Return what of a block decides its shape."""
-    return json.dumps(block.model_dump(mode="json", exclude={"origin", "source"}), sort_keys=True)
+    plan = json.dumps(block.model_dump(mode="json", exclude={"origin", "source"}), sort_keys=True)
+    return plan if file is None else f"{plan} {file.sha256}"

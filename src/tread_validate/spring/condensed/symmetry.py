@@ -33,6 +33,8 @@ def folds(body: Body) -> tuple[Fold, Fold] | None:
 
 def partners(body: Body) -> Integers | None:
     """Return the mirror image of each node of a layer; None where the body is not symmetric."""
+    if body.layers == 0:  # a mesh file: no layers, and symmetry by chance alone
+        return None
     turn = np.array([-1.0, 1.0, 1.0 if body.half else -1.0])
     face = np.round(body.nodes[: body.nodes_per_layer] / 1e-9)
     order, mirrored = np.lexsort(face.T), np.lexsort((face * turn).T)
