@@ -13,6 +13,7 @@ from tread_validate.spring.condensed.finite_strain import (
     second_order_of,
 )
 from tread_validate.spring.condensed.inputs import Operator, Pose, fresh_state, scratch
+from tread_validate.spring.condensed.operators import FaceOperators
 from tread_validate.spring.condensed.products import loads
 from tread_validate.spring.condensed.second_order import follow_up
 from tread_validate.spring.condensed.store import converged_ratios
@@ -113,6 +114,22 @@ def test_folded_products_of_a_face_are_those_of_the_whole_matrix(plan, shape):
     q, out = np.sin(np.arange(matrix.shape[0])), np.empty(matrix.shape[0])
     loads(Operator(*blocks), *parts, q, out)
     assert np.abs(out - matrix @ q).max() < 1e-5 * np.abs(matrix @ q).max()
+
+
+@pytest.mark.parametrize(("plan", "shape"), [*SOLID, (SIPED, RING)])
+def test_a_window_is_the_inverse_of_its_part_of_the_compliance(plan, shape):
+    """Also on the trailing half of a symmetric face, where it is taken from its image: to single precision."""
+    body = make_body(plan, shape, COARSE)
+    matrix = condense(body, NU).stiffness
+    parts = FaceOperators(body, lambda: matrix)
+    first, cells = parts.windows.first, parts.windows.first.size - 1
+    for a, b in ((0, 1), (0, 2), (1, 3), (cells - 2, cells), (0, cells)):
+        parts.add(a, b)
+        inside = slice(3 * first[a], 3 * first[b])
+        exact = np.linalg.inv(np.linalg.inv(matrix)[inside, inside])
+        at, size = parts.windows.offset[a, b], exact.shape[0]
+        found = parts.windows.pool[at : at + size**2].reshape(size, size)
+        assert np.abs(found - exact).max() < 1e-6 * np.abs(exact).max()
 
 
 @pytest.mark.parametrize(("plan", "shape"), [*SOLID, (SIPED, RING)])

@@ -68,22 +68,21 @@ def _eliminate(diagonal: list[Array], towards_mount: list[Array], reach: int, lo
     """Return what is left on the first layer of a block-tridiagonal matrix and of a load on its last layer.
 
     Nodes are in order along the block and couple with those within `reach` only, so that factor^-1 coupling^T is zero
-    above a band: block by block, more than half of the work falls away.
+    above a band: block by block, more than half of the work falls away. Overwrites `diagonal`.
     """
     size = load.shape[0]
     width = max(-(-size // PARTS), reach)
     cuts = [(k, min(k + width, size)) for k in range(0, size, width)]
-    matrix = diagonal[-1]
+    matrix, half, rest = diagonal[-1].T, np.zeros((size, size)), np.empty(load.shape)
     for inner, coupling in zip(diagonal[-2::-1], towards_mount[::-1], strict=True):
-        factor = cholesky(matrix, lower=True, check_finite=False)
-        half, rest = np.zeros((size, size)), np.empty(load.shape)
+        factor = cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
         for begin, end in cuts:
             right = min(end + width, size)
             found = coupling[:right, begin:end].T - factor[begin:end, :begin] @ half[:begin, :right]
             half[begin:end, :right] = dtrsm(1.0, factor[begin:end, begin:end], found, lower=1)
             rest[begin:end] = load[begin:end] - factor[begin:end, :begin] @ rest[:begin]
             rest[begin:end] = dtrsm(1.0, factor[begin:end, begin:end], rest[begin:end], lower=1)
-        matrix, load = inner.copy(), -half.T @ rest
+        matrix, load = inner.T, -half.T @ rest
         for begin, end in cuts:  # the lower triangle alone is kept
             first = max(begin - width, 0)
             matrix[begin:end, :end] -= half[first:, begin:end].T @ half[first:, :end]

@@ -12,7 +12,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from .body import Body
 from .inputs import NO_FOLD, ROWS, FaceNodes, Integers, Singles, Windows
-from .symmetry import folded, folds
+from .symmetry import folded, folds, image_of
 
 Array = NDArray[np.float64]
 
@@ -61,6 +61,8 @@ class FaceOperators:
             np.zeros(0, dtype=np.float32),
             *(folds(body) or (NO_FOLD, NO_FOLD)),
         )
+        same = np.array_equal(first + first[::-1], np.full(first.size, first[-1]))
+        self._image = image_of(self.windows.even, self.windows.odd) if same and self.windows.even.left.size else None
         self._used = 0
 
     @cached_property
@@ -87,19 +89,31 @@ class FaceOperators:
 
     def add(self, a: int, b: int) -> None:
         """Make the operator of the cells a..b-1."""
-        first, offset, pool, even, odd = self.windows
-        begin, end = 3 * int(first[a]), 3 * int(first[b])
-        whole = self._operator(begin, end)
+        _, offset, pool, even, odd = self.windows
+        whole = self._window(a, b)
         parts = [whole]
-        if even.left.size + odd.left.size == end - begin:
-            parts += [folded(whole, even), folded(whole, odd)]
-        made = np.concatenate([part.astype(np.float32).ravel() for part in parts])
+        if even.left.size + odd.left.size == whole.shape[0]:
+            exact = self._stiffness
+            parts += [folded(exact, even).astype(np.float32), folded(exact, odd).astype(np.float32)]
+        made = np.concatenate([part.ravel() for part in parts])
         if self._used + made.size > pool.size:
             pool = np.concatenate([pool[: self._used], np.zeros(max(made.size, self._used), dtype=np.float32)])
         pool[self._used : self._used + made.size] = made
         offset[a, b] = self._used
         self._used += made.size
         self.windows = self.windows._replace(offset=offset, pool=pool)
+
+    def _window(self, a: int, b: int) -> Singles:
+        """Return the operator of the cells a..b-1; on the trailing half of a symmetric face that of its image."""
+        first, cells = self.windows.first, self.windows.first.size - 1
+        begin, end = 3 * int(first[a]), 3 * int(first[b])
+        if self._image is None or a + b >= cells:
+            return self._operator(begin, end).astype(np.float32)
+        c, d = cells - b, cells - a
+        at, size = int(self.windows.offset[c, d]), end - begin
+        there = self.windows.pool[at : at + size**2].reshape(size, size) if at >= 0 else self._window(c, d)
+        place, sign = (each[begin:end] for each in self._image)
+        return np.asarray(there[np.ix_(place - 3 * first[c], place - 3 * first[c])] * sign[:, None] * sign)
 
     def _operator(self, begin: int, end: int) -> Array:
         whole = self._stiffness.shape[0]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .body import Body
-from .inputs import Fold, Integers
+from .inputs import Fold, Integers, Singles
 
 Array = NDArray[np.float64]
 
@@ -29,6 +29,16 @@ def folds(body: Body) -> tuple[Fold, Fold] | None:
     keep = [(left != right) | (other > 0.0) for other in (even, odd)]
     first, second = (Fold(left[k], right[k], own[k], other[k]) for k, other in zip(keep, (even, odd), strict=True))
     return first, second
+
+
+def image_of(even: Fold, odd: Fold) -> tuple[Integers, Singles]:
+    """Return where the symmetry takes each degree of freedom of a layer, (3 n,), and with which sign."""
+    size = even.left.size + odd.left.size
+    place, sign = np.arange(size), np.ones(size, dtype=np.float32)
+    place[even.left], place[even.right] = even.right, even.left
+    sign[even.left] = sign[even.right] = np.sign(even.other)
+    sign[odd.left[odd.left == odd.right]] = -1.0
+    return place, sign
 
 
 def partners(body: Body) -> Integers | None:
