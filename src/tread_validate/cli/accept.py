@@ -35,7 +35,7 @@ def command(
 
     tables = tables or only_tables()
     facts = todays_tables(tables)
-    baseline = baseline or Workspace(facts["study"]).baseline
+    baseline = baseline or Workspace(facts.study).baseline
     made = accept(
         tables, baseline, reason, who=who, allow_dirty=allow_dirty, allow_stale=allow_stale, references=references
     )

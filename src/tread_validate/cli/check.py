@@ -41,7 +41,7 @@ def command(
 
     tables = tables or only_tables()
     facts = todays_tables(tables)
-    accepted = load_baseline(baseline or Workspace(facts["study"]).baseline)
+    accepted = load_baseline(baseline or Workspace(facts.study).baseline)
     same_study(accepted, tables)
     found = check_tables(accepted, tables)
     write_text(output or tables / "delta.csv", delta_csv(found))
@@ -51,7 +51,7 @@ def command(
     moved = movements(accepted, tables)
     if markdown is not None:
         write_text(markdown, delta_markdown(found, accepted.acceptance, moved, page))
-    write_summary(tables, str(facts["study"]), found, moved)
+    write_summary(tables, facts.study, found, moved)
     for line in delta_lines(found):
         typer.echo(line)
     if not report_only and found.failed:

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..files import read_text, write_text
+from ..files import write_text
 from ..mending import mended_by
 from ..provenance import sha256_file
 from ..source_code import code_digest
 from ..study import LoadedStudy
+from .tables.made_from import PROVENANCE, MadeFrom, read_made_from
 
-PROVENANCE = "provenance.json"
 LATER = ("delta.csv",)
 """Written beside the tables by `check`, from them."""
 
@@ -25,20 +25,7 @@ def write_provenance(tables: Path, facts: Mapping[str, Any]) -> None:
     write_text(tables / PROVENANCE, json.dumps({**facts, "tables": digests}, indent=2, sort_keys=True) + "\n")
 
 
-def read_provenance(tables: Path) -> dict[str, Any]:
-    """Return what tables were made from; raises `InputError` where they do not say."""
-    file = tables / PROVENANCE
-    try:
-        data = json.loads(read_text(file))
-    except ValueError as error:
-        raise InputError(file, error, "JSON") from None
-    kinds = {"code": dict, "study": str, "tables": dict}
-    if not isinstance(data, dict) or not all(isinstance(data.get(key), kind) for key, kind in kinds.items()):
-        raise InputError(file, "an older format", "study, code and digests of the tables")
-    return data
-
-
-def todays_tables(tables: Path, study: LoadedStudy | None = None) -> Mapping[str, Any]:
+def todays_tables(tables: Path, study: LoadedStudy | None = None) -> MadeFrom:
     """Return the provenance of tables that today's comparison made, of this state of the study where one is given.
 
     Raises
@@ -50,21 +37,23 @@ def todays_tables(tables: Path, study: LoadedStudy | None = None) -> Mapping[str
         return _checked(tables, study)
 
 
-def _checked(tables: Path, study: LoadedStudy | None) -> Mapping[str, Any]:
-    data = read_provenance(tables)
+def _checked(tables: Path, study: LoadedStudy | None) -> MadeFrom:
+    data = read_made_from(tables)
     file = tables / PROVENANCE
     today = code_digest("compare")
-    made_by = str(data["code"].get("compare"))
+    made_by = str(data.code.get("compare"))
     if made_by != today:
         raise InputError(f"{file}: code of the comparison", made_by, today)
     if study is not None:
-        for key, mine in (("study", study.model.name), ("study_digest", study.digest)):
-            if data.get(key) != mine:
-                found = str(data.get(key))[:16]
-                raise InputError(f"{file}: {key}", found, f"{mine[:16]}, that of {study.source}")
-    for name, digest in data["tables"].items():
+        for key, found, mine in (
+            ("study", data.study, study.model.name),
+            ("study_digest", data.study_digest, study.digest),
+        ):
+            if found != mine:
+                raise InputError(f"{file}: {key}", found[:16], f"{mine[:16]}, that of {study.source}")
+    for name, digest in data.tables.items():
         table = tables / f"{name}.csv"
         found = sha256_file(table) if table.is_file() else "no file"
         if found != digest:
-            raise InputError(table, found[:16], f"{str(digest)[:16]}, the digest that it was written with")
+            raise InputError(table, found[:16], f"{digest[:16]}, the digest that it was written with")
     return data

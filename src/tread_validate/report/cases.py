@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from ..compare.tables import CaseRow
 from ..study.factors import FACTORS
@@ -70,13 +69,22 @@ def _view(row: CaseRow, told: list[str]) -> CaseView:
     return CaseView(row.case_id, row.run, levels, label, row.assumed, row)
 
 
-def factor_levels(views: tuple[CaseView, ...]) -> list[dict[str, Any]]:
+@dataclass(frozen=True)
+class FactorLevels:
+    """A factor of the study, with its levels in order of appearance."""
+
+    key: str
+    label: str
+    levels: tuple[str, ...]
+
+
+def factor_levels(views: tuple[CaseView, ...]) -> list[FactorLevels]:
     """Return the factors that vary in the study, each with its levels in order of appearance."""
     found = []
     for factor in FACTORS:
-        levels = list(dict.fromkeys(view.levels[factor.key] for view in views))
+        levels = tuple(dict.fromkeys(view.levels[factor.key] for view in views))
         if len(levels) > 1 or factor.key == "path":
-            found.append({"key": factor.key, "label": factor.title, "levels": levels})
+            found.append(FactorLevels(factor.key, factor.title, levels))
     return found
 
 

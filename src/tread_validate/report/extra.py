@@ -5,19 +5,19 @@ from __future__ import annotations
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+
+from pydantic import BaseModel, ConfigDict
 
 from ..compare.tables import TableRow as ResultRow
 from ..compare.tables import read_rows
-from ..errors import InputError
 from ..files import read_text, write_text
 from ..hierarchy.tables import TABLES, Level
+from ..model_file import read_model
 from ..reference import FeStore
 from ..reference.mesh_errors import MeshQuantity, MeshStudy
 from ..source_code import code_digest
 from ..study import LoadedStudy, conditions_digest
 from ..units import IN_MS
-from ..yaml_text import read_yaml
 from . import wording
 from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Section, Table, Tone
 from .inputs import plain_table
@@ -37,19 +37,29 @@ FIGURES = (
 )
 
 
+class HierarchyRecord(BaseModel):
+    """What a model hierarchy was made from, as far as the report asks."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore")
+
+    study: str
+    study_digest: str
+    code: str = ""
+
+
 def hierarchy_section(folder: Path | None, study: LoadedStudy, drawn: Path, marks: Marks) -> Section | None:
     """Return the model hierarchy's figures and tables as it wrote them; None where it has not run on this study."""
     if folder is None or not folder.is_dir():
         return None
-    record = _record(folder / "record.yaml")
-    if record["study"] != study.model.name:
+    record = read_model(folder / "record.yaml", HierarchyRecord)
+    if record.study != study.model.name:
         return None
     items: list[Item] = [
         Paragraph("From the simplest spring model to the finest: what each level adds, and what it costs.")
     ]
-    if record["study_digest"] != conditions_digest(study.cases()):
+    if record.study_digest != conditions_digest(study.cases()):
         items.append(Paragraph("Stale: made when the study had other conditions. Make the hierarchy anew."))
-    if record.get("code") != code_digest("hierarchy"):
+    if record.code != code_digest("hierarchy"):
         items.append(Paragraph("Made by other code than today's. Make the hierarchy anew: make hierarchy."))
     tables = {kind: read_rows(_file(folder, kind), kind) for kind in TABLES if _file(folder, kind).is_file()}
     figures = []
@@ -74,13 +84,6 @@ def hierarchy_section(folder: Path | None, study: LoadedStudy, drawn: Path, mark
     for kind, rows in tables.items():
         items.append(plain_table(f"hierarchy-{kind.table}", kind, rows, marks, folded=True))
     return Section("hierarchy", "The model hierarchy", tuple(items)) if tables else None
-
-
-def _record(path: Path) -> dict[str, Any]:
-    record = read_yaml(path)
-    if not isinstance(record, dict) or not {"study", "study_digest"} <= set(record):
-        raise InputError(path, "no such record", "a mapping with study and study_digest")
-    return record
 
 
 def _file(folder: Path, kind: type[ResultRow]) -> Path:

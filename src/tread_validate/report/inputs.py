@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from .. import provenance
 from ..compare.tables import PublishedRow, cell
@@ -118,25 +117,21 @@ def provenance_section(tables: Tables) -> Section:
     """Return commit, versions and input digests."""
     data = tables.provenance
     facts = [
-        ("Code commit", str(data.get("commit", "unknown"))),
-        ("Package version", str(data.get("version", "unknown"))),
+        ("Code commit", data.commit),
+        ("Package version", data.version),
+        ("Study", data.study),
+        ("Study SHA-256", data.study_digest),
+        ("Report made by commit", provenance.commit()),
     ]
-    facts += [("Study", str(data.get("study", "unknown"))), ("Study SHA-256", str(data.get("study_digest", "unknown")))]
-    facts += [("Report made by commit", provenance.commit())]
-    packages = _mapping(data.get("packages"))
-    inputs = _mapping(data.get("inputs"))
-    sources = _mapping(data.get("sources"))
     states = [
-        (wording.source(name), ", ".join(f"{count} {state}" for state, count in _mapping(counts).items() if count))
-        for name, counts in sources.items()
+        (wording.source(name), ", ".join(f"{count} {state}" for state, count in counts.items() if count))
+        for name, counts in data.sources.items()
     ]
     tables_made = [
         _facts("provenance-code", "Code and study", "Fact", facts),
         _facts("provenance-sources", "Sources", "Source", states),
-        _facts("provenance-packages", "Packages", "Package", [(k, str(v)) for k, v in packages.items()], folded=True),
-        _facts(
-            "provenance-inputs", "Input files, SHA-256", "File", [(k, str(v)) for k, v in inputs.items()], folded=True
-        ),
+        _facts("provenance-packages", "Packages", "Package", list(data.packages.items()), folded=True),
+        _facts("provenance-inputs", "Input files, SHA-256", "File", list(data.inputs.items()), folded=True),
     ]
     note = Paragraph("The same code on the same inputs gives this report byte for byte.")
     return Section("provenance", "Provenance", (note, *(table for table in tables_made if table.rows)))
@@ -147,18 +142,13 @@ def _facts(key: str, title: str, name: str, facts: list[tuple[str, str]], folded
     return Table(key, title, (Column(name), Column("Value", wide=True)), rows, folded=folded)
 
 
-def _mapping(value: Any) -> Mapping[str, Any]:
-    return value if isinstance(value, Mapping) else {}
-
-
 def stamp(tables: Tables) -> tuple[tuple[str, str], ...]:
     """Return the facts that head and foot the report."""
     data = tables.provenance
-    digest = str(data.get("study_digest", "unknown"))
     return (
-        ("Study", str(data.get("study", "unknown"))),
-        ("Study SHA-256", digest[:12]),
-        ("Code", f"tread_validate {data.get('version', 'unknown')}, commit {data.get('commit', 'unknown')}"),
+        ("Study", data.study),
+        ("Study SHA-256", data.study_digest[:12]),
+        ("Code", f"tread_validate {data.version}, commit {data.commit}"),
     )
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -26,8 +24,7 @@ from ..compare.tables import (
     StatisticsRow,
     read_rows,
 )  # fmt: skip
-from ..errors import InputError
-from ..files import read_text
+from ..compare.tables.made_from import MadeFrom, read_made_from
 
 Pair = tuple[str, str]
 """Predicted source and reference source."""
@@ -50,7 +47,7 @@ class Tables:
     published: tuple[PublishedRow, ...]
     assumed: tuple[AssumedRow, ...]
     sensitivity: tuple[Sensitivity, ...]
-    provenance: dict[str, Any]
+    provenance: MadeFrom
     folder: Path
 
     def sources(self, kind: str) -> list[str]:
@@ -107,19 +104,9 @@ def read_tables(folder: Path | str) -> Tables:
         published=read_rows(place / "published.csv", PublishedRow),
         assumed=read_rows(place / "assumed.csv", AssumedRow),
         sensitivity=read_rows(place / "sensitivity.csv", Sensitivity),
-        provenance=_provenance(place / "provenance.json"),
+        provenance=read_made_from(place),
         folder=place,
     )
-
-
-def _provenance(path: Path) -> dict[str, Any]:
-    try:
-        data = json.loads(read_text(path))
-    except json.JSONDecodeError as error:
-        raise InputError(f"{path}:{error.lineno}", error.msg, "JSON") from None
-    if not isinstance(data, dict):
-        raise InputError(path, type(data).__name__, "a JSON object")
-    return data
 
 
 def number(value: object) -> float | None:

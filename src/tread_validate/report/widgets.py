@@ -33,7 +33,7 @@ def browser(
 ) -> tuple[Widget, dict[str, Any]]:
     """Return the case browser and its data."""
     factors = factor_levels(views)
-    index = {factor["key"]: {level: i for i, level in enumerate(factor["levels"])} for factor in factors}
+    index = {factor.key: {level: i for i, level in enumerate(factor.levels)} for factor in factors}
     states = _states(tables)
     errors = _case_errors(tables)
     samples = samples_each(sum(len(sources) for sources in histories.values()))
@@ -50,7 +50,7 @@ def browser(
     ]
     data = {
         "cases": cases,
-        "factors": [{"key": factor["key"]} for factor in factors],
+        "factors": [{"key": factor.key} for factor in factors],
         "first": _first(views, histories),
         "sources": [
             {

@@ -82,7 +82,7 @@ def test_a_number_is_written_to_seven_digits_and_stays_there(value: float) -> No
     ("change", "match"),
     [
         (("samples", "sample"), "no column samples"),
-        (("change\n", "change,more\n"), "column more"),
+        (("change\n", "change,more\n"), ":2: got 7 cells, expected 8"),
         (("2001", "many"), ":2: samples: got 'many', expected a finite integer"),
         (("0.5,0", "inf,0"), ":2: value"),
         (("0.5,0\n", "0.5\n"), ":2: got 6 cells, expected 7"),

@@ -49,7 +49,7 @@ def test_every_case_is_in_one_cell_of_one_grid(tables: Tables) -> None:
 
 def test_only_factors_that_vary_can_be_chosen(tables: Tables) -> None:
     """Exact: one compound and one friction law are no choice; the path always is."""
-    levels = {factor["key"]: factor["levels"] for factor in factor_levels(case_views(tables.cases))}
+    levels = {factor.key: list(factor.levels) for factor in factor_levels(case_views(tables.cases))}
     assert set(levels) == {"path", "block", "temperature_degC", "interference_mm", "speed", "creep"}
     assert levels["speed"] == ["150 rpm", "300 rpm", "16.7 m/s"]
     assert levels["creep"] == ["0 %", "free rolling", "0.3 %"]

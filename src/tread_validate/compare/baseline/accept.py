@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import datetime
 import getpass
-import json
 import os
 import subprocess
 from pathlib import Path
 
 from ...errors import InputError, one_line
-from ...files import read_text
 from ...provenance import commit, version
 from ..tables import PeakRow, read_rows
+from ..tables.made_from import PROVENANCE, read_made_from
 from .delta import BROKEN
 from .histories import histories_text
 from .store import Acceptance, Baseline, save_baseline
@@ -45,17 +44,15 @@ def accept(
     """
     if len(one_line(reason).strip()) < SHORTEST_REASON:
         raise InputError("--reason", repr(one_line(reason)), f"a reason of {SHORTEST_REASON} characters or more")
-    facts = _provenance(Path(tables) / "provenance.json")
-    made_by = str(facts.get("commit", "unknown"))
+    facts = read_made_from(tables)
+    made_by = facts.commit
     if not allow_dirty:
         changed = uncommitted(Path(folder))
         if changed:
             found = f"{len(changed)} uncommitted changes, first {changed[0]}"
             raise InputError("working tree", found, "a clean tree, or --allow-dirty")
         if made_by != commit():
-            raise InputError(
-                Path(tables) / "provenance.json", f"tables of commit {made_by}", f"{commit()}, or --allow-dirty"
-            )
+            raise InputError(Path(tables) / PROVENANCE, f"tables of commit {made_by}", f"{commit()}, or --allow-dirty")
     broken = [row for row in read_rows(Path(tables) / "peaks.csv", PeakRow) if row.status in BROKEN]
     if broken and not allow_stale:
         first = broken[0]
@@ -70,8 +67,8 @@ def accept(
         when=when or datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
         commit=made_by,
         version=version(),
-        study=str(facts.get("study", "")),
-        study_digest=str(facts.get("study_digest", "")),
+        study=facts.study,
+        study_digest=facts.study_digest,
     )
     made = save_baseline(folder, tables, acceptance, histories_text(Path(tables), Path(references)))
     add_to_trend(folder, tables, acceptance)
@@ -107,13 +104,3 @@ def _git(*arguments: str) -> str:
     except (OSError, subprocess.SubprocessError):
         raise InputError("working tree", "no git repository here", "a git checkout, or --allow-dirty") from None
     return done.stdout
-
-
-def _provenance(path: Path) -> dict[str, object]:
-    try:
-        facts = json.loads(read_text(path))
-    except json.JSONDecodeError as error:
-        raise InputError(f"{path}:{error.lineno}", error.msg, "JSON") from None
-    if not isinstance(facts, dict):
-        raise InputError(path, type(facts).__name__, "a JSON object")
-    return facts

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ from ...text_table import text_table
 from ...yaml_text import read_mapping, write_yaml
 from ..quantities import SCALARS, Noise
 from ..tables import TABLES
+from ..tables.made_from import PROVENANCE, read_made_from
 from .histories import HISTORIES
 
 SCHEMA_VERSION = 2
@@ -117,14 +117,10 @@ def _load(place: Path) -> Baseline:
 
 def same_study(baseline: Baseline, tables: Path | str) -> None:
     """Raise `InputError` where the tables are of another study than the baseline: nothing in them is comparable."""
-    path = Path(tables) / "provenance.json"
-    try:
-        facts = json.loads(read_text(path))
-    except json.JSONDecodeError as error:
-        raise InputError(f"{path}:{error.lineno}", error.msg, "JSON") from None
-    found = facts.get("study") if isinstance(facts, dict) else None
+    found = read_made_from(tables).study
     if found != baseline.acceptance.study:
-        raise InputError(f"{path}: study", found, f"{baseline.acceptance.study}, the study of the baseline")
+        where = f"{Path(tables) / PROVENANCE}: study"
+        raise InputError(where, found, f"{baseline.acceptance.study}, the study of the baseline")
 
 
 def _record(path: Path) -> dict[str, Any]:

@@ -66,6 +66,10 @@ def read_rows(path: Path | str, kind: type[AnyRow]) -> tuple[AnyRow, ...]:
     not of its column's kind, and two rows with one key.
     """
     table = read_text_table(path)
+    missing = [name for name in kind.header() if name not in table.header]
+    if missing:
+        where = f"{path}:{table.line}"
+        raise InputError(where, f"no column {missing[0]}", "columns " + ", ".join(kind.header()))
     table.check(kind.header(), exactly=True)
     rows: list[AnyRow] = []
     seen: set[tuple[str, ...]] = set()
