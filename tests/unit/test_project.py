@@ -43,12 +43,16 @@ def test_every_dependency_has_a_lower_bound_and_a_tested_version_above_it(root: 
         assert [int(n) for n in pin.split(".")] >= [int(n) for n in least.split(".")], item
 
 
-def test_what_runs_before_a_commit_is_what_make_lint_runs(root: Path) -> None:
+def test_what_runs_before_a_commit_is_make_lint_and_before_a_push_what_ci_runs(root: Path) -> None:
     makefile = (root / "Makefile").read_text("utf-8")
     recipe = makefile[makefile.index("\nlint:") :].split("\n\n")[0]
     config = yaml.safe_load((root / ".pre-commit-config.yaml").read_text("utf-8"))
-    hooks = [hook["entry"].replace(".venv/bin/", "") for repo in config["repos"] for hook in repo["hooks"]]
-    assert hooks == re.findall(r"@\$\(BIN\)/(.*)", recipe)
+    assert [repo["repo"] for repo in config["repos"]] == ["local"]
+    hooks = config["repos"][0]["hooks"]
+    commit = [hook["entry"].replace(".venv/bin/", "") for hook in hooks if "stages" not in hook]
+    assert commit == re.findall(r"@\$\(BIN\)/(.*)", recipe)
+    assert [hook["entry"] for hook in hooks if hook.get("stages") == ["pre-push"]] == [".ci/run"]
+    assert "exec make test" in (root / ".ci" / "run").read_text("utf-8")
 
 
 def test_recipes_name_what_is_there(root: Path) -> None:
