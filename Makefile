@@ -13,7 +13,7 @@ TRUST_MODELS ?= 0
 SNAKEMAKE = sh workflow/setup/locked.sh $(BIN)/snakemake --config study=$(STUDY) replace=$(REPLACE) trust_models=$(TRUST_MODELS) --profile workflow/profiles/default --cores $(CORES)
 SYSTEM_PACKAGES := gfortran calculix-ccx chromium poppler-utils
 
-.PHONY: help report check map test lint verify reference mesh-study hierarchy bench docs test-pythons test-cluster test-robustness clean
+.PHONY: help report check map test lint verify reference mesh-study hierarchy hard-passes bench docs test-pythons test-cluster test-robustness clean
 
 help: ## Show this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -55,6 +55,9 @@ hierarchy: $(BIN)/.installed ## Run the model hierarchy anew: error and cost of 
 
 map: $(BIN)/.installed gfortran ## Where each model may be believed: FE over the dimensionless groups; goes on where it was
 	@$(BIN)/tread-validate map $(STUDY) --runs $(MAP_RUNS) --minutes $(MAP_MINUTES) --jobs $(CORES) -o results/map
+
+hard-passes: $(BIN)/.installed gfortran ## Passes that are hard on models and FE engine: both run, docs/hard_passes.md written anew
+	@$(BIN)/python examples/hard_passes/hard_passes.py docs/hard_passes.md
 
 # material_pyvisco.py needs packages of its own (benchmarks/requirements-pyvisco.txt) and is run by hand
 bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory
