@@ -62,7 +62,7 @@ def within(reference: tuple[float, ...], predicted: tuple[float, ...]) -> str:
     names = ("N", "impulse", "T+", "T-")
     allowed = [0.02 * reference[0], 0.03 * reference[1], *(max(0.03 * abs(peak), 1.0) for peak in reference[2:])]
     far = [
-        f"{name} {100.0 * (b / a - 1.0):+.1f} %"
+        f"{name} {100.0 * (b / a - 1.0):+.1f} %" if name in names[:2] or abs(a) > 1.0 else f"{name} {b - a:+.1f} N"
         for name, a, b, most in zip(names, reference, predicted, allowed, strict=True)
         if abs(b - a) > most
     ]
