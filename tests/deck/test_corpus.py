@@ -135,6 +135,41 @@ def test_wrong_choices_end_with_code_2_in_one_line(
     assert error.count("\n") == 1
 
 
+def test_a_sarif_log_has_what_the_standard_requires() -> None:
+    """SARIF 2.1.0: version, runs, tool.driver.name, a message and a level of its list, a rule that ruleIndex points to,
+    lines from 1, a URI reference for the file, whatever its name holds.
+    """
+    found = [one for deck in DECKS for one in lint(deck, stated(deck)[0])]  # type: ignore[arg-type]
+    odd = type(found[0])("a b/c:d%[1].inp", 1, found[0].rule, "x", "note")
+    log = json.loads(formatted([*found, odd], "sarif"))
+    assert log["version"] == "2.1.0"
+    assert log["$schema"].endswith("sarif-2.1.0.json")
+    (run,) = log["runs"]
+    driver = run["tool"]["driver"]
+    assert driver["name"]
+    assert len({rule["id"] for rule in driver["rules"]}) == len(driver["rules"]) >= 20
+    for result in run["results"]:
+        assert result["message"]["text"]
+        assert result["level"] in ("none", "note", "warning", "error")
+        assert driver["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
+        (location,) = result["locations"]
+        place = location["physicalLocation"]
+        assert place["region"]["startLine"] >= 1
+        assert re.fullmatch(r"(?:[A-Za-z0-9._~/-]|%[0-9A-F]{2})+", place["artifactLocation"]["uri"])
+    assert (
+        run["results"][-1]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "a%20b/c%3Ad%25%5B1%5D.inp"
+    )
+
+
+@pytest.mark.parametrize("code", [rule.code for rule in catalogue().values()])
+def test_every_code_has_a_help_page(code: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert app.run(["lint", "--explain", code]) == 0
+    head, blank, *help_text = capsys.readouterr().out.splitlines()
+    assert head.startswith(f"{code} ")
+    assert blank == ""
+    assert len(" ".join(help_text)) > 30
+
+
 def test_an_annotation_cannot_end_early() -> None:
     """Per cent signs, colons and commas of a file name are escaped as GitHub reads them."""
     (finding,) = lint(CORPUS / "61-poissons-ratio.inp")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from typing import Any
+from urllib.parse import quote
 
 from ... import __version__
 from .findings import Finding, catalogue
@@ -52,7 +53,7 @@ def _sarif(findings: Sequence[Finding]) -> dict[str, Any]:
             "level": SARIF_LEVELS[one.severity],
             "message": {"text": one.message},
             "locations": [
-                {"physicalLocation": {"artifactLocation": {"uri": one.file}, "region": {"startLine": one.line}}}
+                {"physicalLocation": {"artifactLocation": {"uri": _uri(one.file)}, "region": {"startLine": one.line}}}
             ],
         }
         for one in findings
@@ -63,6 +64,11 @@ def _sarif(findings: Sequence[Finding]) -> dict[str, Any]:
         "version": "2.1.0",
         "runs": [{"tool": {"driver": driver}, "results": results}],
     }
+
+
+def _uri(file: str) -> str:
+    """Return a file name as a URI reference (RFC 3986), as SARIF asks for one."""
+    return quote(file.replace("\\", "/"), safe="/")
 
 
 def _annotation(finding: Finding) -> str:
