@@ -38,6 +38,7 @@ class Tab:
     ids: Iterator[int] = field(default_factory=lambda: itertools.count(1))
     complaints: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
+    browser: Tab | None = None
 
     def send(self, method: str, **parameters: Any) -> dict[str, Any]:
         """Send one command and return its result; events that arrive meanwhile are kept."""
@@ -106,9 +107,31 @@ class Tab:
                 "Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode=codes[name], **extra
             )
 
+    def private_memory(self) -> int:
+        """Return the bytes (`Private_Dirty`) that the largest page process of the browser keeps for itself alone."""
+        found = []
+        for process in (self.browser or self).send("SystemInfo.getProcessInfo")["processInfo"]:
+            file = Path(f"/proc/{process['id']}/smaps_rollup")
+            if process["type"] == "renderer" and file.is_file():
+                lines = dict(line.split(":", 1) for line in file.read_text(encoding="utf-8").splitlines()[1:])
+                found.append(1024 * int(lines["Private_Dirty"].split()[0]))
+        return max(found)
+
     def screenshot(self, whole: bool = False) -> bytes:
         """Return a PNG of the window, or of the whole page."""
         return base64.b64decode(self.send("Page.captureScreenshot", format="png", captureBeyondViewport=whole)["data"])
+
+
+def devtools_address(process: subprocess.Popen[bytes], profile: Path) -> str:
+    """Wait until Chromium has written where it listens, and return the address."""
+    port_file = profile / "DevToolsActivePort"
+    deadline = time.monotonic() + PATIENCE
+    while not (port_file.is_file() and port_file.read_text().count("\n") >= 1):
+        assert process.poll() is None, f"Chromium ended with {process.returncode}"
+        assert time.monotonic() < deadline, "Chromium did not start"
+        time.sleep(0.05)
+    port, path = port_file.read_text().split("\n")[:2]
+    return f"ws://127.0.0.1:{port}{path}"
 
 
 @pytest.fixture(scope="session")
@@ -123,14 +146,7 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         stderr=subprocess.DEVNULL,
     )
     try:
-        port_file = profile / "DevToolsActivePort"
-        deadline = time.monotonic() + PATIENCE
-        while not (port_file.is_file() and port_file.read_text().count("\n") >= 1):
-            assert process.poll() is None, f"Chromium ended with {process.returncode}"
-            assert time.monotonic() < deadline, "Chromium did not start"
-            time.sleep(0.05)
-        port, path = port_file.read_text().split("\n")[:2]
-        yield f"ws://127.0.0.1:{port}{path}"
+        yield devtools_address(process, profile)
     finally:
         process.terminate()
         process.wait(timeout=20)
@@ -145,7 +161,7 @@ def new_tab(chromium: str) -> Callable[[], AbstractContextManager[Tab]]:
         browser = Tab(websocket.create_connection(chromium, timeout=PATIENCE, suppress_origin=True))
         target = browser.send("Target.createTarget", url="about:blank")["targetId"]
         address = chromium.split("/devtools/")[0] + f"/devtools/page/{target}"
-        page = Tab(websocket.create_connection(address, timeout=PATIENCE, suppress_origin=True))
+        page = Tab(websocket.create_connection(address, timeout=PATIENCE, suppress_origin=True), browser=browser)
         try:
             yield page
         finally:

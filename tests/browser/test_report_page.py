@@ -129,7 +129,7 @@ def test_link_to_an_unknown_case_says_so(tab: Any, page: Path, hash_: str) -> No
     assert tab.complaints == []
 
 
-@pytest.mark.parametrize(("size", "mobile"), [((1440, 900), False), ((1024, 900), False), (PHONE, True)])
+@pytest.mark.parametrize(("size", "mobile"), [((1440, 900), False), ((768, 1024), False), (PHONE, True)])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_first_screen_holds_models_picture_and_references(
     tab: Any, page: Path, size: tuple[int, int], mobile: bool, scheme: str
@@ -143,7 +143,7 @@ def test_first_screen_holds_models_picture_and_references(
     lowest = "Math.max(...[...document.querySelectorAll(s)].map(e => e.getBoundingClientRect().bottom))"
     parts = [
         ".first .lead",
-        "#model-spring-paper",
+        "#model-spring-paper .why",
         ".first-picture img",
         *(f".facts div:nth-child({i})" for i in (1, 2, 3)),
     ]
@@ -233,12 +233,18 @@ def test_numbers_of_the_first_picture_are_the_histories(open_page: Any) -> None:
     assert max(normal) == pytest.approx(1e6 * 1e-4 * (1.0 + 0.03 * 150.0 * 2.0 * np.pi / 60.0 * 0.1), rel=1e-4)
 
 
-def test_browser_memory_of_the_page_is_small(tab: Any, page: Path) -> None:
-    """Loose on purpose, for another Chromium may differ: JavaScript holds less than 60 MB with both charts drawn."""
+def test_browser_process_keeps_less_than_120_MB_for_the_page(tab: Any, page: Path) -> None:
+    """Private memory of the largest page process: both charts drawn, the page scrolled through, garbage collected.
+
+    The made-up study has 18 cases; that of the paper is measured by `benchmarks/page_memory.py`.
+    """
     tab.open(page.as_uri(), *DESK)
     _charts(tab)
+    for down in range(0, tab.js("document.documentElement.scrollHeight"), 800):
+        tab.js(f"scrollTo(0, {down})")
     tab.send("HeapProfiler.collectGarbage")
-    assert tab.send("Runtime.getHeapUsage")["usedSize"] < 60e6
+    assert tab.send("Runtime.getHeapUsage")["usedSize"] < 30e6
+    assert 10e6 < tab.private_memory() < 120e6
 
 
 def test_drawn_peak_is_the_histories_peak(read_page: Any) -> None:

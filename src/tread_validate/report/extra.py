@@ -74,7 +74,13 @@ def hierarchy_section(folder: Path | None, study: LoadedStudy, drawn: Path, mark
             own = marks.of_column(getattr(row, "assumed", "") for row in tables[kind]) if kind is not None else ()
             figures.append(
                 Figure(
-                    svg.stem, title, caption, svg, own, wide=name == "sobol", data=data if kind is not None else None
+                    svg.stem,
+                    title,
+                    caption,
+                    svg,
+                    own,
+                    wide=name != "compatibility",
+                    data=data if kind is not None else None,
                 )
             )
     if figures:

@@ -140,7 +140,9 @@ def _policy(*scripts: str) -> str:
 
 
 def _plotly() -> str:
-    text = resources.files("tread_validate.report").joinpath("vendor", "plotly-basic.min.js").read_text(encoding="utf-8")
+    text = (
+        resources.files("tread_validate.report").joinpath("vendor", "plotly-basic.min.js").read_text(encoding="utf-8")
+    )
     return ascii_script(text.replace("\r\n", "\n"))
 
 

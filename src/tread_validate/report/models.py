@@ -93,7 +93,7 @@ def _row(tables: Tables, study: LoadedStudy, costs: Costs, marks: Marks, source:
     seconds = costs.seconds.get(source)
     assessed, tone, note = assessment(normal, longitudinal)
     if any(row.compared for row in longitudinal):
-        note += f"; {wording.sliding(tables.sliding(pair))}"
+        note += f". {wording.sliding(tables.sliding(pair)).capitalize()}"
     cells = (
         Cell(wording.source(source), note="; ".join(filter(None, (own_words(study, source), *_told(tables, source))))),
         _errors([normal] if normal else []),
@@ -174,8 +174,9 @@ def _criterion(name: str, rows: list[Ensemble]) -> str:
     known = [row.mean_uncertainty for row in rows if row.mean_uncertainty is not None]
     spread = wording.size(sum(known) / len(known), rows[0].error_type, rows[0].unit) if known else "not known"
     met, peaks = sum(row.adequate for row in rows), sum(row.compared for row in rows)
-    failed = sum(row.inadequate for row in rows)
-    return f"{name}: {met} of {peaks} met, {failed} failed {rows[0].criterion}; U {spread}"
+    unsure = peaks - met - sum(row.inadequate for row in rows)
+    told = f"{met} of {peaks}" + (f", {unsure} undecided" if unsure else "")
+    return f"{name} within {rows[0].criterion}: {told} (U {spread})"
 
 
 def judged(row: MetricRow) -> str:

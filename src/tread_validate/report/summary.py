@@ -36,7 +36,7 @@ def sentence(tables: Tables) -> str:
     who = wording.plural(len(models), "model")
     if not counts:
         return f"{who} ran on {cases}."
-    references = " and ".join(wording.source(name) for name in counts)
+    references = " and ".join(wording.in_sentence(name) for name in counts)
     paths = " and ".join(dict.fromkeys(wording.path(row.path) for row in tables.cases))
     return f"{who} compared with {references} on {cases} of {paths}."
 

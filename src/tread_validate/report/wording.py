@@ -154,15 +154,21 @@ def size(value: float | None, error_type: str, unit: str = "") -> str:
     if value is None:
         return "–"
     if error_type == "relative":
-        return percent(value)
+        return f"below 0.1{NBSP}%" if 0.0 < abs(value) < 5e-4 else percent(value)
     return f"{digits(value, 2)} {_unit(unit)}".strip()
+
+
+def in_sentence(name: str) -> str:
+    """Name a source as it stands within a sentence."""
+    told = source(name)
+    return f"the {told[0].lower()}{told[1:]}" if name == "fe:embedded" else told
 
 
 def sliding(shares: tuple[float, float] | None) -> str:
     """Say how much of the face slides, weighted with N: without sliding, T is a matter of stiffness alone."""
     if shares is None:
         return "sliding share not known"
-    return f"sliding share of the face {percent(shares[1])}, reference {percent(shares[0])}"
+    return f"sliding share {percent(shares[1])}, reference {percent(shares[0])}"
 
 
 def path(key: str) -> str:

@@ -105,7 +105,7 @@ def test_a_model_has_one_row_with_errors_score_assessment_and_cost(
     assert cells[1].text == "10.0\u00a0%; 10.0\u00a0%"
     assert cells[3].text == "0.91 good; –"
     assert cells[4].text == "✗ N and T not good enough"
-    assert "N: 0 of 16 met" in cells[4].note
+    assert "of the reference: 0 of 16 (U not known)" in cells[4].note
     assert cells[5].text == "1.40 ms"
     assert [mark.code for mark in table.rows[0].marks] == ["S1"]
 
@@ -115,7 +115,7 @@ def test_first_screen_names_cases_references_baseline_and_inputs(
 ) -> None:
     """Exact: one sentence, then a fact each; two references are not current and each is said why."""
     screen = first_screen(tables, marks, models_table(tables, study, Costs({}), marks), None, None)
-    words = "1 model compared with Built-in explicit FE on 18 cases of the two-wheel rig and the tyre belt."
+    words = "1 model compared with the built-in explicit FE on 18 cases of the two-wheel rig and the tyre belt."
     assert (screen.alarm, screen.sentence) == ("", words)
     facts = {fact.label: fact.text for fact in screen.facts}
     assert facts["References"].startswith("Built-in explicit FE: 16 of 18 current; 1 without a run; 1 stale")

@@ -54,9 +54,9 @@ TV.browser = (function () {
     const layout = TV.layout({
       grid: { rows: 3, columns: 1 }, hovermode: "x unified", dragmode: TV.coarse ? false : "zoom",
       xaxis: TV.axis("time from first contact, ms", { anchor: "y3", domain: [0, 1] }),
-      yaxis: TV.axis("normal force, N", { domain: [0.6, 1] }),
-      yaxis2: TV.axis("longitudinal force, N", { domain: [0.24, 0.56] }),
-      yaxis3: TV.axis("sliding area, %", { domain: [0, 0.18], range: [-4, 104], dtick: 50 }),
+      yaxis: TV.axis("normal force, N", { domain: [0.62, 1] }),
+      yaxis2: TV.axis("longitudinal force, N", { domain: [0.25, 0.57] }),
+      yaxis3: TV.axis("sliding area, %", { domain: [0, 0.2], range: [-4, 104], dtick: 50 }),
       height: 560,
     });
     if (traces.length === 0) {

@@ -21,7 +21,7 @@ TV.filterTables = function (root) {
 };
 TV.scrollRegions = function (root) {
   const mark = (region) => {
-    if (region.scrollWidth > region.clientWidth + 1) { region.tabIndex = 0; } else { region.removeAttribute("tabindex"); }
+    if (region.scrollWidth > region.clientWidth + 1 || region.scrollHeight > region.clientHeight + 1) { region.tabIndex = 0; } else { region.removeAttribute("tabindex"); }
   };
   const watch = new ResizeObserver((entries) => entries.forEach((entry) => mark(entry.target)));
   root.querySelectorAll(".scroll").forEach((region) => watch.observe(region));

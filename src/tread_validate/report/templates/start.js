@@ -64,7 +64,7 @@ TV.layout = function (extra) {
   }, extra);
 };
 TV.axis = function (title, extra) {
-  return Object.assign({ title: { text: title, standoff: 8 }, showline: true, linecolor: TV.color("muted"), ticks: "outside",
+  return Object.assign({ title: { text: title, standoff: 8, font: { size: 12 } }, showline: true, linecolor: TV.color("muted"), ticks: "outside",
     tickcolor: TV.color("muted"), gridcolor: TV.color("rule"), zeroline: true, zerolinecolor: TV.color("muted"), automargin: true }, extra);
 };
 /* Ticks at 1, 2 and 5 times powers of ten, written out. */
