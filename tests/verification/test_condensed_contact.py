@@ -14,6 +14,7 @@ from tread_validate.spring.condensed.estimate import face_error
 from tread_validate.spring.condensed.inputs import RoadMotion, Scene, Solid, Solver
 from tread_validate.spring.condensed.march import Course
 from tread_validate.spring.condensed.operators import FaceOperators
+from tread_validate.spring.condensed.polygon import Polygon
 from tread_validate.spring.condensed.roll import CondensedSettings, roll, run_course, step_times
 from tread_validate.spring.inputs import KernelLaw
 from tread_validate.spring.stiffness import static_ratios
@@ -261,7 +262,7 @@ def test_a_small_block_runs(belt):
     assert face.normal_force.max() > 10.0
 
 
-@pytest.mark.parametrize(("name", "least"), [("belt", 0.0), ("rig", 0.005)])
+@pytest.mark.parametrize(("name", "least"), [("belt", 0.0), ("rig", 0.001)])
 def test_the_estimated_error_of_the_face_covers_what_a_finer_face_changes(name, least, request):
     """A face half as coarse again, 18 layers: peak N and T change by less than the estimate (and 0.2 %)."""
     case = request.getfixturevalue(name)
@@ -273,6 +274,40 @@ def test_the_estimated_error_of_the_face_covers_what_a_finer_face_changes(name, 
     for extreme in (np.max, np.min):
         change = abs(extreme(finer.tangential_force) - extreme(one.tangential_force)) / size
         assert change < estimate.tangential + 2e-3
+
+
+def test_normal_impulse_on_the_rig_hardly_depends_on_how_finely_the_face_is_divided(rig):
+    """Chords between nodes lie inside wheel and block; raising the road by what they miss leaves less than 0.3 %
+    between 8 and 12 elements a height (0.6 % without), and less than 1 % of 4 elements a height."""
+    impulse = {}
+    for density, layers in ((4.0, 6), (8.0, 12), (12.0, 18)):
+        face = roll(rig, CondensedSettings(density=density, layers=layers))
+        impulse[density] = np.trapezoid(face.normal_force, face.time)
+    assert impulse[8.0] == pytest.approx(impulse[12.0], rel=3e-3)
+    assert impulse[4.0] == pytest.approx(impulse[12.0], rel=1e-2)
+
+
+@pytest.mark.parametrize("skew", [0.0, 30.0])
+def test_a_raised_road_has_the_mean_gap_of_the_arcs_that_a_polygon_of_nodes_stands_for(skew):
+    """Gap of two arcs, x^2 (1/R1 + 1/R2)/2, integrated over a face against its bilinear interpolation between nodes,
+    less the rise: no difference (1 %, what an arc adds to its parabola). A flat face on a plane is not raised."""
+    plan = BLOCK.model_copy(update={"shape": "parallelogram" if skew else "rectangle", "skew_deg": skew})
+    body = make_body(plan, FreeShape(1 / 92e-3), BodySettings(1e-3, 2, across=8, grading=1.3))
+    rise = Polygon(body).rise(body.face[None], 0.3)[0]
+    bend = 1 / 100e-3 + 1 / 0.3
+    quads = body.elements[: body.elements.shape[0] // body.layers, :4]
+    x, z = body.face[quads, 0], body.face[quads, 2]
+    area = np.abs((x[:, 0] - x[:, 1]) * (z[:, 0] - z[:, 2]))
+    nodal = 0.5 * bend * (x**2).mean(axis=1)
+    points = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+    exact = np.zeros(len(x))
+    for a in points:
+        for b in points:
+            shapes = np.outer([1 - a, 1 + a], [1 - b, 1 + b]).ravel() / 4
+            exact += 0.25 * 0.5 * bend * (x @ shapes) ** 2
+    assert rise == pytest.approx(area @ (nodal - exact) / area.sum(), rel=1e-2)
+    flat = make_body(plan, FreeShape(), BodySettings(1e-3, 2, across=8, grading=1.3))
+    assert abs(Polygon(flat).rise(flat.face[None], np.inf)[0]) < 1e-18
 
 
 def test_the_negative_peak_of_t_on_the_rig_is_that_of_fine_fe_meshes(rig):

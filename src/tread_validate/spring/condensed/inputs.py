@@ -107,6 +107,8 @@ class Pose(NamedTuple):
         Positions of the face's nodes in the block's frame if no force acted on the face (small strain).
     bend : (9 e,) array
         Displacement gradients that the mount's bending makes in the elements of `SecondOrder`.
+    rise : float, m
+        By which the road that the nodes meet stands proud: chords between nodes lie inside a curved face and road.
     """
 
     x: float
@@ -114,6 +116,7 @@ class Pose(NamedTuple):
     angle: float
     unloaded: Array
     bend: Singles = _NONE[0:0].ravel()
+    rise: float = 0.0
 
 
 class FaceNodes(NamedTuple):

@@ -25,6 +25,8 @@ class Course(NamedTuple):
         One entry stands for a rigid mount.
     bend : (m, 9 e) or (1, 9 e) array
         As in `Pose`.
+    rise : (m,) or (1,) array, m
+        As in `Pose`.
     """
 
     time: Array
@@ -32,6 +34,7 @@ class Course(NamedTuple):
     origin: Array
     unloaded: Array
     bend: Singles = np.zeros((1, 0), dtype=np.float32)
+    rise: Array = np.zeros(1)
 
 
 class Record(NamedTuple):
@@ -48,7 +51,8 @@ def pose_at(course: Course, k: int) -> Pose:
     """Return the pose at the k-th time."""
     unloaded = course.unloaded[k if course.unloaded.shape[0] > 1 else 0]
     bend = course.bend[k if course.bend.shape[0] > 1 else 0]
-    return Pose(course.origin[k, 0], course.origin[k, 1], course.angle[k], unloaded, bend)
+    rise = course.rise[k if course.rise.size > 1 else 0]
+    return Pose(course.origin[k, 0], course.origin[k, 1], course.angle[k], unloaded, bend, rise)
 
 
 @kernel()

@@ -10,6 +10,7 @@ from ...study import Block
 from .body import Body, FreeShape
 from .inputs import Singles
 from .march import Course
+from .polygon import Polygon
 
 Array = NDArray[np.float64]
 
@@ -39,7 +40,8 @@ def motion(
     x, y, theta = _places(path, middle, time)
     origin = np.column_stack([x, y])
     if path.line.ring_radius is not None:
-        return Course(time, theta, origin, body.face[None], np.zeros((1, 0), dtype=np.float32))
+        raised = Polygon(body).rise(body.face[None], path.road.radius)
+        return Course(time, theta, origin, body.face[None], np.zeros((1, 0), dtype=np.float32), raised)
     cosine, sine = np.cos(theta)[:, None], np.sin(theta)[:, None]
     knots_x, knots_y, _ = _places(path, middle - body.knots, time[:, None])
     dx, dy = knots_x - x[:, None], knots_y - y[:, None]
@@ -48,7 +50,8 @@ def motion(
     unloaded = (moved @ follow.T).reshape(time.size, -1, 3)
     unloaded += body.face
     gradients = moved.astype(np.float32) @ bend.T
-    return Course(time, theta, origin, unloaded, gradients)
+    raised = Polygon(body).rise(unloaded, path.road.radius)
+    return Course(time, theta, origin, unloaded, gradients, raised)
 
 
 def _places(path: Path, s: Array | float, time: Array) -> tuple[Array, Array, Array]:

@@ -40,7 +40,7 @@ def shifted(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: 
     for i in range(state.shift.shape[0]):
         for c in range(3):
             work.unloaded[i, c] = pose.unloaded[i, c] + state.shift[i, c] + ahead * state.flow[i, c]
-    return Pose(pose.x, pose.y, pose.angle, work.unloaded, pose.bend)
+    return Pose(pose.x, pose.y, pose.angle, work.unloaded, pose.bend, pose.rise)
 
 
 @kernel()

@@ -54,10 +54,10 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
             fx, fy = unloaded[0] + ahead[0], unloaded[1] + ahead[1]
             ax, ay = pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy
             az = unloaded[2] + ahead[2]
-            new = _gap(ax, ay, road.radius)
+            new = _gap(ax, ay, road.radius, pose.rise)
             part = 1.0
             if new < 0.0:
-                old = _gap(x, y, road.radius)
+                old = _gap(x, y, road.radius, pose.rise)
                 part = min(max(old / (old - new), 0.0), 1.0) if old > 0.0 else 0.0
             x, y, z = x + part * (ax - x), y + part * (ay - y), z + part * (az - z)
             rest = 1.0 - part
@@ -65,7 +65,7 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
             first, last = min(first, i), i + 1
         travel = rest * whole
         if flat:
-            tx, ty, nx, ny = x + travel, 0.0, 0.0, 1.0
+            tx, ty, nx, ny = x + travel, pose.rise, 0.0, 1.0
         else:
             turned, across = turn_cosine, turn_sine
             if rest == 0.0:
@@ -75,7 +75,7 @@ def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratc
             up = y + road.radius
             far = 1.0 / math.sqrt(x * x + up * up)
             nx, ny = far * (x * turned + up * across), far * (up * turned - x * across)
-            tx, ty = road.radius * nx, road.radius * (ny - 1.0)
+            tx, ty = (road.radius + pose.rise) * nx, road.radius * (ny - 1.0) + pose.rise * ny
         # into the block's frame, less the unloaded place: the displacement that the road imposes
         gx, gy = tx - pose.x, ty - pose.y
         ux = cosine * gx + sine * gy - unloaded[0]
@@ -148,7 +148,7 @@ def widest(
         wx = state.w[i, 0] + (work.q[i, 0] - work.relaxed[i, 0]) / tempo.stiffening
         wy = state.w[i, 1] + (work.q[i, 1] - work.relaxed[i, 1]) / tempo.stiffening
         fx, fy = pose.unloaded[i, 0] + wx, pose.unloaded[i, 1] + wy
-        gap = _gap(pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy, road.radius)
+        gap = _gap(pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy, road.radius, pose.rise)
         if gap < -SUNK:
             first, last = min(first, i), max(last, i + 1)
     return (first, last) if last > 0 else (0, 0)
@@ -258,7 +258,7 @@ def put(pose: Pose, state: FaceState) -> None:
 
 
 @kernel()
-def _gap(x: float, y: float, road_radius: float) -> float:
+def _gap(x: float, y: float, road_radius: float, rise: float) -> float:
     if math.isinf(road_radius):
-        return y
-    return math.sqrt(x * x + (y + road_radius) * (y + road_radius)) - road_radius
+        return y - rise
+    return math.sqrt(x * x + (y + road_radius) * (y + road_radius)) - road_radius - rise

@@ -12,6 +12,7 @@ from ...geometry import path_of
 from ...study import Case
 from .inputs import FaceState, Pose, fresh_state, scratch
 from .march import start, take_step
+from .polygon import Polygon
 from .roll import CondensedSettings, scene_of
 
 Array = NDArray[np.float64]
@@ -28,6 +29,7 @@ class FaceBlock:
         self._nodes, self._terms = self._face.body.area.size, self._scene.solid.moduli.size
         self._copies = 2.0 if self._face.body.half else 1.0
         self._work = scratch(self._nodes, self._terms, self._scene.second)
+        self._polygon = Polygon(self._face.body)
         self._state: FaceState | None = None
         self.mount_points = self._face.body.knots
 
@@ -71,4 +73,5 @@ class FaceBlock:
             moved = np.concatenate([cosine * dx + sine * dy - free[:, 0], cosine * dy - sine * dx - free[:, 1]])
             unloaded = unloaded + (self._face.follow @ moved).reshape(-1, 3)
             bend = self._bend @ moved.astype(np.float32)
-        return Pose(float(position[0]), float(position[1]), float(angle), unloaded, bend)
+        raised = self._polygon.rise(unloaded[None], self._scene.road.radius)
+        return Pose(float(position[0]), float(position[1]), float(angle), unloaded, bend, float(raised[0]))
