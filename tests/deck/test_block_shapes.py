@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import runpy
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -21,7 +23,7 @@ from tread_validate.deck.mesh import block_mesh
 from tread_validate.errors import InputError
 from tread_validate.fe import run_deck
 from tread_validate.geometry.mesh_file import TURNED, _jacobians
-from tread_validate.study import Block, Case, DeckSettings
+from tread_validate.study import Block, Case, DeckSettings, load_study
 
 FloatArray = NDArray[np.float64]
 SETTINGS = DeckSettings(element_size_mm=2.0, layers=5, symmetry="full")
@@ -173,6 +175,19 @@ def test_a_deck_of_a_mesh_file_runs_like_the_one_meshed_here(
     peak = own.normal_force.max()
     np.testing.assert_allclose(np.interp(own.time, mine.time, mine.normal_force), own.normal_force, atol=1e-3 * peak)
     assert mine.normal_force.max() == pytest.approx(peak, rel=1e-4)
+
+
+def test_the_example_of_a_mesh_file_is_720_mm3_of_hexahedra_and_poses_clean_decks(root: Path, tmp_path: Path) -> None:
+    example = root / "examples" / "mesh_block"
+    shutil.copy(example / "study.yaml", tmp_path)
+    runpy.run_path(str(example / "make_mesh.py"))["main"](tmp_path)
+    for case in load_study(tmp_path / "study.yaml").cases():
+        mesh = block_mesh(case.block, case.deck, tmp_path)
+        assert len(mesh.elements) == 720
+        assert mesh.face_elements.size == 12 * 10
+        assert _volume(mesh) * 6.0 / 8.0 == pytest.approx(720.0, rel=1e-5)
+        deck.write(case, tmp_path / case.case_id)
+        assert lint(tmp_path / case.case_id / f"{case.case_id}.inp") == []
 
 
 def _inside_out(elements: NDArray[np.int64]) -> NDArray[np.int64]:

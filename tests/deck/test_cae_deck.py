@@ -68,3 +68,11 @@ def test_a_fault_is_caught_at_its_line(old: str, new: str, code: str, holds: str
     line = next(number for number, one in enumerate(broken.splitlines(), 1) if holds in one)
     found = [one for one in lint(path) if one.severity == "error"]
     assert (code, line) in {(one.code, one.line) for one in found}, [str(one) for one in found]
+
+
+def test_an_instance_without_its_end_is_one_error_and_nothing_follows_from_it(tmp_path: Path) -> None:
+    """It swallows materials, controls and steps; what they might define is not missed."""
+    text = DECK.read_text(encoding="utf-8")
+    path = tmp_path / "pad.inp"
+    path.write_text(text.replace("surface=Top\n*End Instance\n", "surface=Top\n", 1), encoding="utf-8")
+    assert [one.code for one in lint(path) if one.severity == "error"] == ["TV015"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -34,6 +35,9 @@ NAMED = {
 }
 """Keywords that define a name, and by which parameter."""
 
+UNENDED = re.compile(r"\bno \*END (PART|INSTANCE)|before \*END INSTANCE")
+"""What the reader says of a part or instance whose end is missing: it may have swallowed the rest of the deck."""
+
 
 @dataclass
 class Names:
@@ -48,11 +52,12 @@ class Names:
     explicit: bool = False
     mechanical: bool = False
     open_mesh: bool = False
+    swallowed: bool = False
 
     @property
     def gaps(self) -> bool:
-        """Whether part of the deck is missing, so that any name might be defined there."""
-        return bool(self.deck.gaps)
+        """Whether part of the deck is missing or unread, so that any name might be defined there."""
+        return bool(self.deck.gaps) or self.swallowed
 
     @property
     def nsets(self) -> dict[str, IntArray]:
@@ -98,6 +103,7 @@ def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
     names = Names(
         deck,
         explicit=(explicit or "DYNAMIC TEMPERATURE-DISPLACEMENT" in words) and dialect == "abaqus",
+        swallowed=any(one.rule == "structure" and UNENDED.search(one.message) for one in findings),
         mechanical=bool(words & {"DYNAMIC", "STATIC", "VISCO"}),
     )
     made = sorted(words & set(GENERATORS))
