@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ..compare.baseline.histories import Histories, accepted_histories
@@ -24,6 +25,7 @@ KINDS = {
     "consequence": "What follows from them",
 }
 LIMIT = 60
+WORST = ("inadequate", "differs", "cannot tell")
 
 
 def baseline_section(
@@ -51,7 +53,7 @@ def baseline_section(
         words = f"{wording.plural(count, 'assessment')} flipped; " if count else "No assessment flipped; "
         outcome = ("bad", f"{words}{wording.plural(places, 'row')} moved beyond noise, or are new, missing or stale.")
     items: list[Item] = [Paragraph(outcome[1])]
-    flips = [row for row in failed if row.kind == "flip"]
+    flips = sorted((row for row in failed if row.kind == "flip"), key=_gravity)
     if flips:
         items.append(_table(flips, "flips", "Assessments that flipped"))
     if tables is not None and accepted is not None and (accepted / "baseline.yaml").is_file():
@@ -63,6 +65,11 @@ def baseline_section(
     if others:
         items.append(_table(others, "delta", "Cells that are not what they were"))
     return Section("baseline", TITLE, tuple(items)), outcome
+
+
+def _gravity(row: Delta) -> tuple[bool, int]:
+    """Order flips: assessments before agreement within uncertainty, and those that are worst now first."""
+    return row.in_column != "assessment", WORST.index(row.current) if row.current in WORST else len(WORST)
 
 
 def _drawn(
@@ -82,16 +89,18 @@ def _drawn(
 
 def _table(rows: Sequence[Delta], key: str, title: str) -> Table:
     columns = (
-        Column("What happened"),
-        Column("Where", wide=True),
+        Column("Change"),
+        Column("Row of a table", wide=True, long=True),
         Column("Column"),
         Column("Baseline", numeric=True),
         Column("Now", numeric=True),
-        Column("Times its noise", numeric=True),
+        Column("Change / noise", numeric=True),
     )
     lines = tuple(_line(row) for row in rows[:LIMIT])
+    if key == "flips":  # the title says it
+        lines = tuple(replace(line, group="") for line in lines)
     caption = f"First {LIMIT} of {len(rows)} rows." if len(rows) > LIMIT else ""
-    return Table(key, title, columns, lines, caption, folded=key == "delta", csv="delta.csv")
+    return Table(key, title, columns, lines, caption, folded=key == "delta", csv="delta.csv", printed=8)
 
 
 def _movements(found: Sequence[Movement]) -> Table:
@@ -111,11 +120,12 @@ def _movements(found: Sequence[Movement]) -> Table:
         rows.append(Row(cells))
     columns = (
         Column("Model"), Column("Quantity", wide=True), Column("Better", "cases", numeric=True),
-        Column("Worse", "cases", numeric=True), Column("Moved most"), Column("|E| before", numeric=True),
+        Column("Worse", "cases", numeric=True), Column("Moved most", wide=True), Column("|E| before", numeric=True),
         Column("|E| now", "of that case", numeric=True),
     )  # fmt: skip
     return Table(
         "movements", "Better and worse, by model and quantity", columns, tuple(rows), empty="Nothing moved.",
+        printed=12,
         help="Cases whose |E| fell or grew by more than its noise; errors of scores are 1 − R.",
     )  # fmt: skip
 

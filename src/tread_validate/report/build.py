@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..compare.rig_peaks import rig_peaks
+from ..compare.summary import SUMMARY
 from ..files import write_text
 from ..palette import looks
 from ..study import load_study
@@ -68,7 +69,7 @@ def build_report(
     hierarchy_dir: Path | str | None = None,
     workflow: Path | str | None = None,
 ) -> Report:
-    """Write ``index.html``, ``report.pdf``, ``tables/`` and ``figures/`` below `out_dir`.
+    """Write ``index.html``, ``report.pdf``, ``summary.json``, ``tables/`` and ``figures/`` below `out_dir`.
 
     Parameters
     ----------
@@ -162,7 +163,7 @@ def compose(study_path: Path, places: ReportPlaces) -> Report:
         Section("route", "From raw data to model input", route_items(study, drawn)),
         hierarchy_section(places.hierarchy, study, places.out / "figures", marks),
         inputs_section(tables, marks),
-        provenance_section(tables),
+        provenance_section(tables, SUMMARY if (places.tables / SUMMARY).is_file() else ""),
         _workflow(places),
     ]
     return Report(
@@ -184,9 +185,13 @@ def _workflow(places: ReportPlaces) -> Section | None:
 
 
 def _copy_tables(places: ReportPlaces) -> None:
+    """Copy the tables below the page, and the summary for programs beside it: the one of these tables or none."""
     target = places.out / "tables"
     target.mkdir(parents=True, exist_ok=True)
     for path in sorted(places.tables.glob("*.csv")):
         shutil.copyfile(path, target / path.name)
+    (places.out / SUMMARY).unlink(missing_ok=True)
+    if (places.tables / SUMMARY).is_file():
+        shutil.copyfile(places.tables / SUMMARY, places.out / SUMMARY)
     if places.baseline_delta is not None and places.baseline_delta.is_file():
         shutil.copyfile(places.baseline_delta, target / "delta.csv")

@@ -39,13 +39,17 @@ class Cell:
 
 @dataclass(frozen=True)
 class Column:
-    """A table column; `unit` is printed under the title, `marks` tag every number below."""
+    """A table column; `unit` is printed under the title, `marks` tag every number below.
+
+    A `wide` one holds words, one that is `long` too sentences.
+    """
 
     title: str
     unit: str = ""
     numeric: bool = False
     marks: tuple[Mark, ...] = ()
     wide: bool = False
+    long: bool = False
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,10 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """A sortable table; `help` is a line on how to read it, `csv` the name of the table of the results behind it."""
+    """A sortable table; `help` is a line on how to read it, `csv` the name of the table of the results behind it.
+
+    `printed` is the number of rows in the PDF; the page has all of them.
+    """
 
     key: str
     title: str
@@ -72,6 +79,7 @@ class Table:
     empty: str = "No rows."
     help: str = ""
     csv: str = ""
+    printed: int = 24
 
 
 @dataclass(frozen=True)

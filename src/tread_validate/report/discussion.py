@@ -58,10 +58,11 @@ def _disagreements(rows: list[Ensemble], marks: Marks) -> Table:
     for row in rows:
         cells = (
             Cell(wording.quantity(row.quantity, row.metric)),
-            Cell(f"{row.inadequate} of {row.compared}", sort=row.inadequate, note=row.criterion),
+            Cell(f"{row.inadequate} of {row.compared}", sort=row.inadequate),
             Cell(wording.size(row.mean_abs_error, row.error_type, row.unit)),
             Cell(wording.plain(row.bias, 3), sort=row.bias),
             Cell(wording.percent(row.model_scatter), sort=row.model_scatter),
+            Cell(row.criterion or "–"),
             Cell(reason(row)),
         )
         pair = f"{wording.source(row.predicted_source)} compared with {wording.source(row.reference_source)}"
@@ -72,6 +73,7 @@ def _disagreements(rows: list[Ensemble], marks: Marks) -> Table:
         Column("Mean |E|", "scores: 1 − R", numeric=True),
         Column("Bias δ", numeric=True),
         Column("Scatter σ", numeric=True),
+        Column("Good enough", "|E| + U within", wide=True),
         Column("What the numbers say", wide=True),
     )
     return Table(

@@ -26,13 +26,13 @@ from .svg import lighter
 
 FIGURES = (
     ("pareto", "Cost and error of each model level", "Error of the peak normal force against the time of one pass."),
-    ("sobol", "Which inputs the peak forces depend on", "First-order and total Sobol indices over the inputs' ranges."),
     (
         "compounds",
-        "Other compounds, the same errors?",
+        "Errors with other compounds",
         "Errors of the paper's springs against the condensed model, mean "
         "and range over runs, for the study's compound and published rubbers.",
     ),
+    ("sobol", "Which inputs the peak forces depend on", "First-order and total Sobol indices over the inputs' ranges."),
     ("compatibility", "Speed and temperature together", "Which spectra of the compound could give both coefficients."),
 )
 
@@ -83,10 +83,13 @@ def hierarchy_section(folder: Path | None, study: LoadedStudy, drawn: Path, mark
                     data=data if kind is not None else None,
                 )
             )
-    if figures:
-        items.append(Figures(tuple(figures)))
+    tall = [figure for figure in figures if figure.key == "hierarchy-sobol"]  # takes a page of the PDF to itself
+    if len(figures) > len(tall):
+        items.append(Figures(tuple(figure for figure in figures if figure not in tall)))
     if Level in tables:
         items.append(_pareto(read_rows(_file(folder, Level), Level), marks))
+    if tall:
+        items.append(Figures(tuple(tall)))
     for kind, rows in tables.items():
         items.append(plain_table(f"hierarchy-{kind.table}", kind, rows, marks, folded=True))
     return Section("hierarchy", "The model hierarchy", tuple(items)) if tables else None
@@ -123,9 +126,9 @@ def _pareto(levels: Sequence[Level], marks: Marks) -> Table:
         Column("Time of one pass", "ms", numeric=True),
         Column("Mean |error|", "peak normal force", numeric=True),
         Column("Largest error", "peak normal force", numeric=True),
-        Column("Tangential peaks right", "by the criterion of the results", numeric=True),
-        Column("Least ISO/TS 18571", "normal / tangential", numeric=True),
-        Column("Target", wide=True),
+        Column("Longitudinal peaks good enough", "of all, by the criterion of the results", numeric=True),
+        Column("Least ISO/TS 18571", "normal / longitudinal", numeric=True),
+        Column("Target", wide=True, long=True),
     )
     return Table(
         "hierarchy-levels",

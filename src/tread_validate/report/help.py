@@ -8,8 +8,8 @@ from .content import Item, Section, Table
 
 HELP = {
     "delta": "Every cell that differs from the baseline, furthest beyond its noise first.",
-    "disagreeing-statements": "What the paper prints and the models do not meet, with what is known of the reason.",
-    "flips": "An assessment that changed its word, whatever its number did; look at these first.",
+    "disagreeing-statements": "What the paper prints and a model does not meet, furthest first; noted where the reason is known.",
+    "flips": "Assessments that are not what they were, however little a number moved; look at these first.",
     "trend": "One row a model and accepted baseline, oldest first: a model that gets worse slowly shows here.",
     "assumptions": "Replace these by your own data; the codes S and A mark every number that depends on them.",
     "published": "What the paper prints, number by number, and what each is used for here.",
@@ -24,7 +24,7 @@ HELP = {
     "hierarchy-combinations": "Inputs that the paper does not give, and the values that would meet what it prints.",
     "hierarchy-compatibility": "A compound must give both coefficients at once; each row is one spectrum tried.",
     "hierarchy-sobol": "First order: an input alone; total: with all its interactions. Both lie between 0 and 1.",
-    "hierarchy-stiffness": "Stiffness over that of an unhindered block; solved, and as closed forms have it.",
+    "hierarchy-stiffness": "Stiffness over that of an unconstrained block; solved, and as closed forms have it.",
     "hierarchy-fe_meshes": "What a finer mesh costs and what it changes.",
     "provenance-code": "What would have to be checked out to make this report again.",
     "provenance-sources": "Runs by source and state; only current ones are compared.",

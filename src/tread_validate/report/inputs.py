@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from .. import provenance
@@ -15,7 +16,13 @@ from .tables import Tables
 # endings of column names and the units they stand for; the longest match comes first
 UNITS = {
     "percent_s_per_m": "% per m/s", "percent_per_degC": "% per °C", "N_s": "N s", "rad_s": "rad/s", "m_s": "m/s",
-    "percent": "%", "degC": "°C", "MPa": "MPa", "mm": "mm", "N": "N", "s": "s",
+    "percent": "%", "degC": "°C", "MPa": "MPa", "mm": "mm", "N": "N", "s": "s", "mb": "MB",
+}  # fmt: skip
+
+SPELLED = {
+    "abs": "absolute", "ci": "confidence interval", "fe": "FE", "iso18571": "ISO/TS 18571", "p05": "5th percentile",
+    "p95": "95th percentile", "sd": "standard deviation", "tangential": "longitudinal", "gent": "Gent",
+    "lindley": "Lindley", "own": "study's",
 }  # fmt: skip
 
 
@@ -113,8 +120,8 @@ def sensitivity_table(tables: Tables) -> Table | None:
     return Table("sensitivity", title, columns, tuple(rows), folded=True, csv="sensitivity.csv")
 
 
-def provenance_section(tables: Tables) -> Section:
-    """Return commit, versions and input digests."""
+def provenance_section(tables: Tables, summary: str = "") -> Section:
+    """Return commit, versions and input digests; `summary` is the file for programs beside the page, if any."""
     data = tables.provenance
     facts = [
         ("Code commit", data.commit),
@@ -133,8 +140,10 @@ def provenance_section(tables: Tables) -> Section:
         _facts("provenance-packages", "Packages", "Package", list(data.packages.items()), folded=True),
         _facts("provenance-inputs", "Input files, SHA-256", "File", list(data.inputs.items()), folded=True),
     ]
-    note = Paragraph("The same code on the same inputs gives this report byte for byte.")
-    return Section("provenance", "Provenance", (note, *(table for table in tables_made if table.rows)))
+    notes = [Paragraph("The same code on the same inputs gives this report byte for byte.")]
+    if summary:
+        notes.append(Paragraph("Assessments, references and baseline as data, for other programs: ", link=summary))
+    return Section("provenance", "Provenance", (*notes, *(table for table in tables_made if table.rows)))
 
 
 def _facts(key: str, title: str, name: str, facts: list[tuple[str, str]], folded: bool = False) -> Table:
@@ -178,5 +187,11 @@ def _title(name: str) -> tuple[str, str]:
     """Split a column's name into words and the unit that it ends with."""
     for ending, unit in UNITS.items():
         if name.endswith(f"_{ending}"):
-            return name.removesuffix(f"_{ending}").replace("_", " ").capitalize(), unit
-    return name.replace("_", " ").capitalize(), ""
+            return _words(name.removesuffix(f"_{ending}")), unit
+    return _words(name), ""
+
+
+def _words(name: str) -> str:
+    """Write a column's name in words: symbols stay as they are, short forms are spelled out."""
+    words = re.sub(r"\ba (v|theta)\b", r"a_\1", " ".join(SPELLED.get(word, word) for word in name.split("_")))
+    return words if words.startswith("a_") else words[:1].upper() + words[1:]

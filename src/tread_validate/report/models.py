@@ -23,11 +23,11 @@ NORMAL = "peak_normal_force"
 LONGITUDINAL = ("peak_positive_tangential_force", "peak_negative_tangential_force")
 OPEN = 0.1  # share of cases that may be `cannot tell` where the assessment says `good enough`
 COLUMNS = (
-    Column("Model", wide=True),
+    Column("Model"),
     Column("Peak N error", "mean; worst", numeric=True),
     Column("Peak longitudinal force error", "mean; worst", numeric=True),
     Column("ISO/TS 18571", "mean R of N; of T"),
-    Column("Assessment", "tolerance; uncertainty U", wide=True),
+    Column("Assessment", "tolerance; uncertainty U", wide=True, long=True),
     Column("Cost", "of one pass", numeric=True),
 )
 

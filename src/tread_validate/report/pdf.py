@@ -27,8 +27,8 @@ from .marks import in_words
 WIDEST_TABLE = 12  # columns
 DENSE = 6  # columns: with more, numbers stand without their notes
 LONGEST_WORD = 12  # signs: a longer text may be broken
-LONGEST_TABLE = 24  # rows: the attached CSV files hold the rest
-TALLEST = 0.85  # of a figure over the page's width: a taller one is set narrower, so that it fits beside others
+TALLEST = 0.85  # height over width: a taller figure is set narrower, so that it fits beside others
+TALLEST_WIDE = 1.25  # of one that has the page's width: many small panels stay readable
 LEFT_OUT = ("claims",)  # sections whose tables are attached, for they have hundreds of rows
 
 
@@ -91,7 +91,7 @@ def _attached(tables: Path | None, folder: Path) -> list[str]:
 
 def _items(item: Item, folder: Path) -> list[dict[str, Any]]:
     if isinstance(item, Paragraph):
-        return [{"kind": "paragraph", "text": item.text, "tone": item.tone, "marks": in_words(item.marks)}]
+        return [{"kind": "paragraph", "text": item.text + item.link, "tone": item.tone, "marks": in_words(item.marks)}]
     if isinstance(item, FirstScreen):
         return _first(item, folder)
     if isinstance(item, Figures):
@@ -127,7 +127,7 @@ def _figures(figures: Figures, folder: Path) -> dict[str, Any]:
                 "caption": figure.caption,
                 "marks": in_words(figure.marks),
                 "wide": figure.wide,
-                "width": round(100.0 * min(1.0, TALLEST / _tallness(figure.svg)), 1),
+                "width": round(100.0 * min(1.0, (TALLEST_WIDE if figure.wide else TALLEST) / _tallness(figure.svg)), 1),
             }
         )
     return {"kind": "figures", "items": found}
@@ -146,7 +146,7 @@ def _table(table: Table) -> dict[str, Any]:
         columns.append({"title": "Depends on", "unit": legend, "numeric": False, "marks": "", "wide": False})
     rows: list[dict[str, Any]] = []
     dense = len(table.columns) > DENSE
-    for group, members in itertools.groupby(table.rows[:LONGEST_TABLE], key=lambda row: row.group):
+    for group, members in itertools.groupby(table.rows[: table.printed], key=lambda row: row.group):
         if group:
             rows.append({"group": group, "cells": []})
         for row in members:
@@ -157,8 +157,11 @@ def _table(table: Table) -> dict[str, Any]:
                 cells.append({"text": " ".join(mark.code for mark in row.marks), "note": "", "tone": "mute"})
             rows.append({"group": "", "cells": cells})
     caption = table.caption
-    if len(table.rows) > LONGEST_TABLE:
-        caption += f" The first {LONGEST_TABLE} of {len(table.rows)} rows; the rest is in {table.csv or 'the page'}."
+    if len(table.rows) > table.printed:
+        told = re.match(r"First \d+ of (\d+) rows\.", caption)  # of a page that has not all either
+        caption = caption.removeprefix(told[0] if told else "")
+        rest = table.csv or "the page"
+        caption += f" The first {table.printed} of {told[1] if told else len(table.rows)} rows; the rest is in {rest}."
     return {
         "kind": "table",
         "title": table.title,
@@ -191,5 +194,5 @@ def _breakable(text: str) -> str:
 
 def _weights(columns: Sequence[Column], with_marks: bool) -> list[float]:
     """Share the page's width: texts that may wrap get more than twice what a number gets."""
-    found = [2.8 if column.wide else (1.2 if column.numeric else 1.3) for column in columns]
+    found = [(4.2 if column.long else 2.8) if column.wide else (1.2 if column.numeric else 1.3) for column in columns]
     return [*found, 1.2] if with_marks else found

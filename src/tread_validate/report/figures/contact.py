@@ -85,7 +85,7 @@ def pressure(
             pressures.plot(place, own.contact_pressure / MPA, **style)
             shears.plot(place, own.shear_traction / MPA, **style)
             slips = own.slips & (own.contact_pressure > 0.0)
-            name = f"_{wording.source(source)}, slipping"
+            name = f"_{wording.source(source)}, sliding"
             shears.plot(
                 place[slips], own.shear_traction[slips] / MPA, "o", ms=3, color=look.color, mfc="none", label=name
             )
@@ -123,7 +123,7 @@ def pressure_map(folder: Path, case: Case, label: str, face: FaceTable, engine: 
         )
         axes.figure.colorbar(shown, ax=axes, label="contact pressure, MPa", extend="max", shrink=0.85)
         if face.slides.any():
-            axes.plot(place[face.slides], across[face.slides], ".", ms=3, color=VERMILION, label="slipping")
+            axes.plot(place[face.slides], across[face.slides], ".", ms=3, color=VERMILION, label="sliding")
             axes.legend(loc="upper right", frameon=True)
         axes.set(aspect="equal", xlabel="distance from the end that makes contact first, mm", ylabel="across, mm")
         axes.grid(visible=False)
