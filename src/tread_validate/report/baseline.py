@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from ..compare.baseline.histories import Histories, accepted_histories
@@ -97,8 +96,6 @@ def _table(rows: Sequence[Delta], key: str, title: str) -> Table:
         Column("Change / noise", numeric=True),
     )
     lines = tuple(_line(row) for row in rows[:LIMIT])
-    if key == "flips":  # the title says it
-        lines = tuple(replace(line, group="") for line in lines)
     caption = f"First {LIMIT} of {len(rows)} rows." if len(rows) > LIMIT else ""
     return Table(key, title, columns, lines, caption, folded=key == "delta", csv="delta.csv", printed=8)
 
@@ -125,7 +122,7 @@ def _movements(found: Sequence[Movement]) -> Table:
     )  # fmt: skip
     return Table(
         "movements", "Better and worse, by model and quantity", columns, tuple(rows), empty="Nothing moved.",
-        printed=12,
+        printed=8,
         help="Cases whose |E| fell or grew by more than its noise; errors of scores are 1 − R.",
     )  # fmt: skip
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from tread_validate.compare.summary import write_summary
 from tread_validate.report import build_report
 
 
@@ -29,7 +30,9 @@ def made_up() -> ModuleType:
 @pytest.fixture(scope="session")
 def inputs(made_up: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Any:
     """Write the made-up inputs."""
-    return made_up.fabricate(tmp_path_factory.mktemp("report") / "in")
+    found = made_up.fabricate(tmp_path_factory.mktemp("report") / "in")
+    write_summary(found.tables, "made-up")
+    return found
 
 
 @pytest.fixture(scope="session")

@@ -201,6 +201,17 @@ def test_a_flipped_assessment_stands_before_what_moved(tmp_path: Path, marks: Ma
     assert [cell.text for cell in moves.rows[0].cells][2:] == ["peak normal force N", "1 N", "1.1 N", "10.0"]
 
 
+def test_the_gravest_flip_stands_first(tmp_path: Path, marks: Marks) -> None:
+    """Exact: assessments before agreement, and of those the ones that are worst now, whatever the table's order."""
+    ends = [("agreement", "differs"), ("assessment", "cannot tell"), ("assessment", "adequate"),
+            ("assessment", "inadequate")]  # fmt: skip
+    path = tmp_path / "delta.csv"
+    path.write_text(rows_text(Delta, [replace(FLIP, in_column=at, current=now) for at, now in ends]), encoding="utf-8")
+    flips = baseline_section(path, marks)[0].items[1]
+    assert isinstance(flips, Table)
+    assert [row.cells[4].text for row in flips.rows] == ["inadequate", "cannot tell", "adequate", "differs"]
+
+
 def test_a_move_within_noise_is_good(tmp_path: Path, marks: Marks) -> None:
     """Exact: shown, and not counted as a failure."""
     path = tmp_path / "delta.csv"

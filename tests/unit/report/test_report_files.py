@@ -31,6 +31,8 @@ def test_every_promised_file_is_there(built: Path, inputs: Any) -> None:
     assert (built / "report.pdf").read_bytes().startswith(b"%PDF-")
     copied = {path.name: path.read_bytes() for path in (built / "tables").iterdir()}
     assert copied == {path.name: path.read_bytes() for path in inputs.tables.glob("*.csv")}
+    assert (built / "summary.json").read_bytes() == (inputs.tables / "summary.json").read_bytes()
+    assert 'href="summary.json"' in (built / "index.html").read_text(encoding="utf-8")
     drawn = {path.stem for path in (built / "figures").glob("*.svg")}
     assert {"moduli-soft", "friction-dry", "belt-heights", "rig-sketch", "peaks-rectangle-22c"} <= drawn
 
