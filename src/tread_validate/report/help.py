@@ -8,7 +8,7 @@ from .content import Item, Section, Table
 
 HELP = {
     "delta": "Every cell that differs from the baseline, furthest beyond its noise first.",
-    "disagreeing-statements": "What the paper prints and a model does not meet, furthest first; the reason where known.",
+    "disagreeing-statements": "What the paper prints and a model does not meet, furthest first; the reason if known.",
     "flips": "Assessments that are not what they were, however little a number moved; look at these first.",
     "trend": "One row a model and accepted baseline, oldest first: a model that gets worse slowly shows here.",
     "assumptions": "Replace these by your own data; the codes S and A mark every number that depends on them.",

@@ -206,7 +206,8 @@ def test_the_gravest_flip_stands_first(tmp_path: Path, marks: Marks) -> None:
     ends = [("agreement", "differs"), ("assessment", "cannot tell"), ("assessment", "adequate"),
             ("assessment", "inadequate")]  # fmt: skip
     path = tmp_path / "delta.csv"
-    path.write_text(rows_text(Delta, [replace(FLIP, in_column=at, current=now) for at, now in ends]), encoding="utf-8")
+    rows = [replace(FLIP, row_key=f"case {now}", in_column=at, current=now) for at, now in ends]
+    path.write_text(rows_text(Delta, rows), encoding="utf-8")
     flips = baseline_section(path, marks)[0].items[1]
     assert isinstance(flips, Table)
     assert [row.cells[4].text for row in flips.rows] == ["inadequate", "cannot tell", "adequate", "differs"]
