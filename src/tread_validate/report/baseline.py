@@ -133,16 +133,18 @@ def _trend(rows: Sequence[TrendRow]) -> list[Table]:
     lines = [
         Row(
             (
-                Cell(row.when[:10]), Cell(row.commit), Cell(wording.source(row.predicted_source)),
-                Cell(f"{row.compared}", sort=row.compared), Cell(wording.percent(row.mean_abs_error)),
-                Cell(wording.percent(row.largest_abs_error)), Cell(row.reason),
-            )
+                Cell(wording.source(row.predicted_source), note=f"{row.when[:10]}, code {row.commit}"),
+                Cell(f"{row.compared}", sort=row.compared),
+                Cell(wording.percent(row.mean_abs_error), sort=row.mean_abs_error),
+                Cell(wording.percent(row.largest_abs_error), sort=row.largest_abs_error),
+            ),
+            group=f"{row.when[:10]}: {row.reason}",
         )
         for row in own
     ]  # fmt: skip
     columns = (
-        Column("Accepted"), Column("Code"), Column("Model"), Column("Cases", numeric=True),
-        Column("Mean |E|", "peak N", numeric=True), Column("Worst |E|", numeric=True), Column("Why", wide=True),
+        Column("Model", "accepted, code", wide=True), Column("Cases", numeric=True),
+        Column("Mean |E|", "peak N", numeric=True), Column("Worst |E|", "peak N", numeric=True),
     )  # fmt: skip
     title = "Headline errors of every accepted baseline"
     return [Table("trend", title, columns, tuple(lines), folded=True)] if lines else []
@@ -151,6 +153,11 @@ def _trend(rows: Sequence[TrendRow]) -> list[Table]:
 def _line(row: Delta) -> Row:
     name = row.name.removesuffix(f": {row.in_column}") if row.in_column else row.name
     unit = wording.unit(row.unit)
+    if row.in_table == "errors" and row.source and row.quantity and row.case_id:
+        quantity = wording.quantity(row.quantity, row.metric or "scalar")
+        name = f"{wording.source(row.source)}: {quantity}, {row.case_id}"
+        if row.reference_source:
+            name += f", compared with {wording.source(row.reference_source)}"
     cells = (
         Cell(row.outcome, tone="" if row.passed else "bad", note=row.note),
         Cell(name, case=row.case_id if row.in_table in ("errors", "peaks") else ""),
