@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tread_validate.deck.sections import material
+from tread_validate.deck.compound import material
 from tread_validate.fe.material import Material, read_materials
 from tread_validate.inp import read_deck
 from tread_validate.material import log_shift_factor, prony_series

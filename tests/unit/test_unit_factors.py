@@ -11,6 +11,7 @@ PACKAGE = Path(tread_validate.__file__).parent
 FACTORS = {1e3, 1e-3, 1e6, 1e-6}
 SHARES = {  # small shares of a quantity's own size, by function: tolerances, not units
     "deck/inputs.py:closing_of_gap",
+    "fe/relaxation.py:_merge_slow",
     "material/fit.py:_fit",
     "material/master.py:_determined",
     "spring/condensed/roll.py:step_times",
