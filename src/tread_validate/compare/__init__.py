@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..callable_module import make_callable
+from ..later import loader
 
 if TYPE_CHECKING:
     from .build import build_tables, write_tables
@@ -33,28 +33,24 @@ __all__ = [
     "write_tables",
 ]  # fmt: skip
 
-_LATER = {
-    "MetricRow": ".tables",
-    "Scalars": ".quantities",
-    "StudyComparison": ".study_comparison",
-    "assessment": ".scores.assessment",
-    "bias_and_scatter": ".scores.ensemble",
-    "build_tables": ".build",
-    "compare": ".scores.comparison",
-    "compare_study": ".study_comparison",
-    "contact_window": ".quantities",
-    "empty_rows": ".scores.comparison",
-    "regress": ".regression.line",
-    "scalars": ".quantities",
-    "write_tables": ".build",
-}
-
-
-def __getattr__(name: str) -> Any:
-    """Load what is offered when it is first asked for: a command needs little of it."""
-    if name in _LATER:
-        return getattr(import_module(_LATER[name], __name__), name)
-    raise AttributeError(f"module {__name__} has no attribute {name}")
+__getattr__ = loader(
+    __name__,
+    {
+        "MetricRow": ".tables",
+        "Scalars": ".quantities",
+        "StudyComparison": ".study_comparison",
+        "assessment": ".scores.assessment",
+        "bias_and_scatter": ".scores.ensemble",
+        "build_tables": ".build",
+        "compare": ".scores.comparison",
+        "compare_study": ".study_comparison",
+        "contact_window": ".quantities",
+        "empty_rows": ".scores.comparison",
+        "regress": ".regression.line",
+        "scalars": ".quantities",
+        "write_tables": ".build",
+    },
+)
 
 
 make_callable(__name__, "tread_validate.api:compare")

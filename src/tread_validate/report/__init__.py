@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..callable_module import make_callable
+from ..later import loader
 
 if TYPE_CHECKING:
     from .build import build_report
@@ -14,16 +14,12 @@ __all__ = [
     "build_report",
 ]  # fmt: skip
 
-_LATER = {
-    "build_report": ".build",
-}
-
-
-def __getattr__(name: str) -> Any:
-    """Load what is offered when it is first asked for: a command needs little of it."""
-    if name in _LATER:
-        return getattr(import_module(_LATER[name], __name__), name)
-    raise AttributeError(f"module {__name__} has no attribute {name}")
+__getattr__ = loader(
+    __name__,
+    {
+        "build_report": ".build",
+    },
+)
 
 
 make_callable(__name__, "tread_validate.api:report")

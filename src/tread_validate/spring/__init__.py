@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from ..later import loader
 from .creep import free_rolling_creep, resolve_creep
 from .run import run
 from .variants import pass_of, register, variants
@@ -25,16 +25,12 @@ __all__ = [
     "variants",
 ]  # fmt: skip
 
-_LATER = {
-    "ElementHistory": ".detail",
-    "FaceAtInstant": ".detail",
-    "element_history": ".detail",
-    "face_at": ".detail",
-}
-
-
-def __getattr__(name: str) -> Any:
-    """Load what is offered when it is first asked for: a command needs little of it."""
-    if name in _LATER:
-        return getattr(import_module(_LATER[name], __name__), name)
-    raise AttributeError(f"module {__name__} has no attribute {name}")
+__getattr__ = loader(
+    __name__,
+    {
+        "ElementHistory": ".detail",
+        "FaceAtInstant": ".detail",
+        "element_history": ".detail",
+        "face_at": ".detail",
+    },
+)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from ..later import loader
 
 if TYPE_CHECKING:
     from .rule import Expectation, expected_error, with_expectation
@@ -14,15 +15,11 @@ __all__ = [
     "with_expectation",
 ]  # fmt: skip
 
-_LATER = {
-    "Expectation": ".rule",
-    "expected_error": ".rule",
-    "with_expectation": ".rule",
-}
-
-
-def __getattr__(name: str) -> Any:
-    """Load what is offered when it is first asked for: a command needs little of it."""
-    if name in _LATER:
-        return getattr(import_module(_LATER[name], __name__), name)
-    raise AttributeError(f"module {__name__} has no attribute {name}")
+__getattr__ = loader(
+    __name__,
+    {
+        "Expectation": ".rule",
+        "expected_error": ".rule",
+        "with_expectation": ".rule",
+    },
+)

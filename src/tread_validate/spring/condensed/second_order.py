@@ -21,7 +21,7 @@ import numpy as np
 
 from ...kernels import kernel
 from .inputs import FaceState, Pose, Scratch, SecondOrder, Singles
-from .products import combine, combine_shorts
+from .products import combine
 
 LARGEST = 0.5
 """Norm of H beyond which P2 grows no more: there a second order says nothing."""
@@ -55,7 +55,7 @@ def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work
     _strain(pose, second, state, work)
     _stress(second, work.gradient)
     work.gradient[:] *= np.float32(second.spread_unit)
-    combine_shorts(second.spread, work.gradient, work.coarse)
+    combine(second.spread, work.gradient, work.coarse)
     for i in range(state.shift.shape[0]):
         for c in range(3):
             moved = 0.0
@@ -102,7 +102,7 @@ def _strain(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) ->
         combine(second.gather, work.moved[c], work.third)
         for k in range(work.third.size):
             work.coarse[3 * k + c] = work.third[k] * np.float32(second.gradient_unit)
-    combine_shorts(second.gradient, work.coarse, work.gradient)
+    combine(second.gradient, work.coarse, work.gradient)
     if pose.bend.size > 0:
         work.gradient[:] += pose.bend
 
