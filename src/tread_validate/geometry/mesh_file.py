@@ -103,7 +103,7 @@ def _read(path: Path, where: str) -> tuple[FloatArray, IntArray]:
         mesh: Any = meshio.read(path)
     except SystemExit:  # meshio's way of saying that it knows no such format
         raise InputError(where, f"format {path.suffix or '(none)'}", "a format that meshio reads") from None
-    except Exception as error:
+    except Exception as error:  # each of its readers raises kinds of its own for a damaged file
         raise InputError(where, one_line(str(error) or type(error).__name__, 80), "a mesh that meshio reads") from None
     other = sorted({block.type for block in mesh.cells} - VOLUMES - IGNORED)
     if other:
