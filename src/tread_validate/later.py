@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
 
-def loader(package: str, places: Mapping[str, str]) -> Callable[[str], Any]:
-    """Return the ``__getattr__`` of a package (its ``__name__``) whose names are defined in the modules `places`.
+def loaded(package: str, places: Mapping[str, str], name: str) -> Any:
+    """Return what a package (its ``__name__``) offers under a name.
 
-    A module is given relative to the package (``".rule"``). Another name raises `AttributeError`, as a module does.
+    `places` gives the module of each name, relative to the package (``".rule"``). Another name raises
+    `AttributeError`, as a module does. The package writes ``__getattr__`` and its table out, for there the digests of
+    code (`tread_validate.source_code`) read where a name leads.
     """
-
-    def load(name: str) -> Any:
-        if name in places:
-            return getattr(import_module(places[name], package), name)
-        raise AttributeError(f"module {package!r} has no attribute {name!r}")
-
-    return load
+    if name in places:
+        return getattr(import_module(places[name], package), name)
+    raise AttributeError(f"module {package!r} has no attribute {name!r}")

@@ -111,6 +111,22 @@ def test_a_package_s_other_modules_count_where_a_name_cannot_be_traced(tmp_path:
     assert "room.inner" in Graph(tmp_path / "pkg").closure(("user",))
 
 
+def test_a_name_that_is_loaded_later_leads_to_its_module_alone(tmp_path: Path) -> None:
+    """The table of names and modules beside ``__getattr__`` is read."""
+    room = tmp_path / "pkg" / "room"
+    room.mkdir(parents=True)
+    (tmp_path / "pkg" / "__init__.py").write_text("")
+    (room / "__init__.py").write_text(
+        '_LATER = {"y": ".inner"}\n\ndef __getattr__(name):\n    return loaded(__name__, _LATER, name)\n'
+    )
+    (room / "inner.py").write_text("y = 1\n")
+    (room / "other.py").write_text("x = 1\n")
+    (tmp_path / "pkg" / "user.py").write_text("from .room import y\n")
+    closure = Graph(tmp_path / "pkg").closure(("user",))
+    assert "room.inner" in closure
+    assert "room.other" not in closure
+
+
 def test_an_unknown_part_is_refused() -> None:
     """One line with the parts that there are."""
     with pytest.raises(InputError, match="got engine, expected one of study, material"):

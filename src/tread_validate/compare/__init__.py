@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..callable_module import make_callable
-from ..later import loader
+from ..later import loaded
 
 if TYPE_CHECKING:
     from .build import build_tables, write_tables
@@ -33,24 +33,25 @@ __all__ = [
     "write_tables",
 ]  # fmt: skip
 
-__getattr__ = loader(
-    __name__,
-    {
-        "MetricRow": ".tables",
-        "Scalars": ".quantities",
-        "StudyComparison": ".study_comparison",
-        "assessment": ".scores.assessment",
-        "bias_and_scatter": ".scores.ensemble",
-        "build_tables": ".build",
-        "compare": ".scores.comparison",
-        "compare_study": ".study_comparison",
-        "contact_window": ".quantities",
-        "empty_rows": ".scores.comparison",
-        "regress": ".regression.line",
-        "scalars": ".quantities",
-        "write_tables": ".build",
-    },
-)
+_LATER = {
+    "MetricRow": ".tables",
+    "Scalars": ".quantities",
+    "StudyComparison": ".study_comparison",
+    "assessment": ".scores.assessment",
+    "bias_and_scatter": ".scores.ensemble",
+    "build_tables": ".build",
+    "compare": ".scores.comparison",
+    "compare_study": ".study_comparison",
+    "contact_window": ".quantities",
+    "empty_rows": ".scores.comparison",
+    "regress": ".regression.line",
+    "scalars": ".quantities",
+    "write_tables": ".build",
+}
+
+
+def __getattr__(name: str) -> Any:
+    return loaded(__name__, _LATER, name)
 
 
 make_callable(__name__, "tread_validate.api:compare")

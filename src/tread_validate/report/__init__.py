@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..callable_module import make_callable
-from ..later import loader
+from ..later import loaded
 
 if TYPE_CHECKING:
     from .build import build_report
@@ -14,12 +14,13 @@ __all__ = [
     "build_report",
 ]  # fmt: skip
 
-__getattr__ = loader(
-    __name__,
-    {
-        "build_report": ".build",
-    },
-)
+_LATER = {
+    "build_report": ".build",
+}
+
+
+def __getattr__(name: str) -> Any:
+    return loaded(__name__, _LATER, name)
 
 
 make_callable(__name__, "tread_validate.api:report")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..later import loader
+from ..later import loaded
 from .creep import free_rolling_creep, resolve_creep
 from .run import run
 from .variants import pass_of, register, variants
@@ -25,12 +25,13 @@ __all__ = [
     "variants",
 ]  # fmt: skip
 
-__getattr__ = loader(
-    __name__,
-    {
-        "ElementHistory": ".detail",
-        "FaceAtInstant": ".detail",
-        "element_history": ".detail",
-        "face_at": ".detail",
-    },
-)
+_LATER = {
+    "ElementHistory": ".detail",
+    "FaceAtInstant": ".detail",
+    "element_history": ".detail",
+    "face_at": ".detail",
+}
+
+
+def __getattr__(name: str) -> Any:
+    return loaded(__name__, _LATER, name)

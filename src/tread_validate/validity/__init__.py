@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..later import loader
+from ..later import loaded
 
 if TYPE_CHECKING:
     from .rule import Expectation, expected_error, with_expectation
@@ -15,11 +15,12 @@ __all__ = [
     "with_expectation",
 ]  # fmt: skip
 
-__getattr__ = loader(
-    __name__,
-    {
-        "Expectation": ".rule",
-        "expected_error": ".rule",
-        "with_expectation": ".rule",
-    },
-)
+_LATER = {
+    "Expectation": ".rule",
+    "expected_error": ".rule",
+    "with_expectation": ".rule",
+}
+
+
+def __getattr__(name: str) -> Any:
+    return loaded(__name__, _LATER, name)
