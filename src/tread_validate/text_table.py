@@ -82,13 +82,7 @@ def text_table(text: str, source: Path | str, separators: str = ",") -> TextTabl
     if "\ufeff" in text:
         number = next(number for number, line in enumerate(lines, start=1) if "\ufeff" in line)
         raise InputError(f"{source}:{number}", "a byte-order mark inside the file", "one file, not several joined")
-    comments: dict[str, str] = {}
-    start = 0
-    while start < len(lines) and (not lines[start].strip() or lines[start].lstrip().startswith("#")):
-        key, colon, value = lines[start].lstrip("# ").partition(":")
-        if colon:
-            comments[key.strip()] = value.strip()
-        start += 1
+    comments, start = leading_comments(lines)
     if start == len(lines):
         raise InputError(source, "no header", "a header line with column names")
     separator = max(separators, key=lines[start].count)
@@ -105,6 +99,18 @@ def text_table(text: str, source: Path | str, separators: str = ",") -> TextTabl
             )
             raise InputError(f"{source}:{line}", f"{len(cells)} cells", f"{len(header)}, as in the header{hint}")
     return TextTable(str(source), header, rows, comments, start + 1, separator)
+
+
+def leading_comments(lines: Sequence[str]) -> tuple[dict[str, str], int]:
+    """Return the ``# key: value`` lines before a header, and the index of the first line below them."""
+    comments: dict[str, str] = {}
+    start = 0
+    while start < len(lines) and (not lines[start].strip() or lines[start].lstrip().startswith("#")):
+        key, colon, value = lines[start].lstrip("# ").partition(":")
+        if colon:
+            comments[key.strip()] = value.strip()
+        start += 1
+    return comments, start
 
 
 def _cells(lines: Sequence[str], source: Path | str, start: int, separator: str) -> Iterator[tuple[int, list[str]]]:

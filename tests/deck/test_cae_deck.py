@@ -70,9 +70,30 @@ def test_a_fault_is_caught_at_its_line(old: str, new: str, code: str, holds: str
     assert (code, line) in {(one.code, one.line) for one in found}, [str(one) for one in found]
 
 
-def test_an_instance_without_its_end_is_one_error_and_nothing_follows_from_it(tmp_path: Path) -> None:
-    """It swallows materials, controls and steps; what they might define is not missed."""
+ENDS = [
+    ("controls=EC-1, material=Rubber\n,\n*End Part\n", "*Part, name=Pad"),
+    ("part=Pad\n        -2.,         0.02,           0.\n*End Instance\n", "*Instance, name=Pad-1"),
+    ("surface=Top\n*End Instance\n", "*Instance, name=Plate-1"),
+    ("*End Assembly\n", "*Assembly"),
+]
+
+
+@pytest.mark.parametrize(("place", "opened"), ENDS, ids=[row[1] for row in ENDS])
+def test_a_missing_end_is_one_error_and_the_rest_is_read_for_what_it_is(
+    place: str, opened: str, tmp_path: Path
+) -> None:
+    """The end is put before what cannot stand inside: no other error follows, and faults further on are found."""
     text = DECK.read_text(encoding="utf-8")
+    assert place in text
+    broken = text.replace(place, place[: place.rindex("*End")], 1)
     path = tmp_path / "pad.inp"
-    path.write_text(text.replace("surface=Top\n*End Instance\n", "surface=Top\n", 1), encoding="utf-8")
-    assert [one.code for one in lint(path) if one.severity == "error"] == ["TV015"]
+    path.write_text(broken, encoding="utf-8")
+    line = next(number for number, one in enumerate(broken.splitlines(), 1) if one.startswith(opened))
+    assert [(one.code, one.line) for one in lint(path) if one.severity == "error"] == [("TV015", line)]
+    twice = broken.replace(" 9., 0.46", " 9., 0.6").replace("*Bulk Viscosity", "*Bulk Viscosty")
+    path.write_text(twice, encoding="utf-8")
+    found = {one.code for one in lint(path) if one.severity == "error"}
+    assert {"TV015", "TV305", "TV002"} <= found
+    if "Plate-1" not in opened:  # lines between it and the assembly's own sets may be the instance's or not
+        path.write_text(broken.replace("amplitude=Ramp", "amplitude=Rump"), encoding="utf-8")
+        assert "TV107" in {one.code for one in lint(path)}

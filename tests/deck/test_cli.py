@@ -57,6 +57,11 @@ def test_one_file_and_general_contact_are_options(altered_study: Callable[..., P
     assert names == sorted([*variants, "mesh.vtu", "vfric.f", "vfriction.f"])
     assert app.run(["lint", *(str(out / RIG / name) for name in variants)]) == 0
     assert "INCLUDE" not in (out / RIG / f"{RIG}.inp").read_text()
+    for kind, user in (("", "vfric"), ("-constant-friction", None), ("-general-contact", "vfriction")):
+        said = [line for line in (out / RIG / f"{RIG}{kind}.inp").read_text().splitlines() if "abaqus job=" in line]
+        routine = "" if user is None else f" user={user}.f"
+        rename = "" if user is None else f" (on Windows rename {user}.f to {user}.for)"
+        assert said == [f"** Run: abaqus job={RIG}{kind}{routine} double=both{rename}"]
 
 
 @pytest.mark.parametrize(

@@ -42,6 +42,9 @@ def command(
     Speed, interference, creep, temperature and friction constants stand at the top of ID.inp and can be changed there;
     mesh, sets and surfaces are in mesh-BLOCK-DIGEST.inp, a belt's velocity tables in motion-PATH-DIGEST.inp.
 
+    In ABAQUS: job=ID user=vfric.f double=both (ID-general-contact: user=vfriction.f; ID-constant-friction: no user=);
+    on Windows rename the routine to .for first.
+
     Example: tread-validate deck config/study.yaml --case rig-rectangle-22c-0p2mm-300rpm
     """
     from .. import deck

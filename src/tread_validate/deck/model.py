@@ -22,7 +22,7 @@ from . import sections
 from .block_mesh import BlockMesh
 from .compound import material
 from .form import Form
-from .inputs import Inputs, inputs_of
+from .inputs import inputs_of
 from .keywords import comment
 from .mesh import block_mesh
 from .placement import LEAD_IN, MountTable, Placement, mount_tables, place
@@ -111,8 +111,9 @@ def build(case: Case, *, single_file: bool = False, general_contact: bool = Fals
     placement, tables = _motion(case, mesh, path, pass_time)
     inputs = inputs_of(case, path, friction, placement, pass_time)
     form = Form(single_file)
+    top, below = _opening(case), form.parameters(inputs.by_hand, inputs.derived)
     before = [
-        *_opening(case, form, inputs),
+        *below,
         *sections.mesh(form, mesh, placement, case.block_name, bool(tables), case.deck.element),
         *material(case),
         *sections.road(form, inputs, path, placement),
@@ -126,14 +127,15 @@ def build(case: Case, *, single_file: bool = False, general_contact: bool = Fals
     constant = general = None
     if case.deck.constant_friction_variant:
         own = sections.constant_friction(form, inputs, friction.constant_coefficient)
-        constant = _join([*before, *own, *after, *pair])
+        constant = _join([*top, _run(case, "-constant-friction"), *before, *own, *after, *pair])
     if general_contact:
         own = sections.user_friction(form, inputs, user.properties, GENERAL)
-        general = _join([*before, *own, *after, *steps(form, inputs, case, path, tables, general_contact=True)])
+        contact = steps(form, inputs, case, path, tables, general_contact=True)
+        general = _join([*top, _run(case, "-general-contact", "vfriction"), *before, *own, *after, *contact])
     own = sections.user_friction(form, inputs, user.properties, PAIRS)
     return WrittenDeck(
         case_id=case.case_id,
-        input_text=_join([*before, *own, *after, *pair]),
+        input_text=_join([*top, _run(case, "", "vfric"), *before, *own, *after, *pair]),
         constant_friction_text=constant,
         user_text=user.source,
         points=placement.points,
@@ -183,7 +185,7 @@ def _motion(case: Case, mesh: BlockMesh, path: Path, pass_time: float) -> tuple[
     return place(mesh, path, curvature), mount_tables(path, rows, pass_time, curvature)
 
 
-def _opening(case: Case, form: Form, inputs: Inputs) -> list[str]:
+def _opening(case: Case) -> list[str]:
     """Return the heading. User's free text stays out of decks: names and ids have a closed alphabet."""
     lines = ["*HEADING", case.case_id]
     lines += [
@@ -201,10 +203,16 @@ def _opening(case: Case, form: Form, inputs: Inputs) -> list[str]:
             *(f"ASSUMED INPUT: {item}" for item in case.assumed()),
             "x: direction of travel, y: away from the road, z: across. Road at y = 0 under the axle (x = 0).",
             "Step approach leads in without contact; step pass begins at the first contact.",
-            f"Run: abaqus job={case.case_id} user=vfric.f double=both (on Windows rename vfric.f to vfric.for)",
         )
     ]
-    return [*lines, *form.parameters(inputs.by_hand, inputs.derived)]
+    return lines
+
+
+def _run(case: Case, variant: str, routine: str | None = None) -> str:
+    """Return the comment that says how a deck is run; built-in friction needs no routine."""
+    user = "" if routine is None else f" user={routine}.f"
+    rename = "" if routine is None else f" (on Windows rename {routine}.f to {routine}.for)"
+    return comment(f"Run: abaqus job={case.case_id}{variant}{user} double=both{rename}")
 
 
 def _join(lines: list[str]) -> str:

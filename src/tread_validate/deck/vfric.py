@@ -60,7 +60,7 @@ def source(kind: str, contact: str = PAIRS) -> str:
     head = (
         f"c     {name}: friction between tread block and road.\n"
         f"c     For ABAQUS/Explicit, {use}.\n"
-        "c     Run with double=both.\n"
+        f"c     Run with user={name.lower()}.f double=both (on Windows .for).\n"
         "c     Units of the deck: mm, tonne, s, MPa, N.\n"
         f"c     Law: {kind}. Its constants are the properties in the deck.\n"
         "c     A point at rest stays so while the force that stops its slip is\n"

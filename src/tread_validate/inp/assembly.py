@@ -7,17 +7,14 @@ them. ``*SYSTEM`` is applied to the nodes that follow it. Lines keep the file an
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
 from .deck import LARGEST_LABEL, KeywordBlock, label
+from .nesting import STRUCTURE, Report, nested
 from .placement import instance_motion, still
 from .qualify import DEFINES, REFERS, UNPLACED, Scope, largest_label, part_names, placed_nodes, qualified, round_up
-
-Report = Callable[[str, str, object, str], None]
-
-STRUCTURE = frozenset({"PART", "END PART", "INSTANCE", "END INSTANCE", "ASSEMBLY", "END ASSEMBLY"})
 
 
 @dataclass
@@ -49,7 +46,7 @@ def resolve(
     if not any(block.keyword in STRUCTURE or block.keyword == "SYSTEM" or "SYSTEM" in block.parameters
                for block in written):  # fmt: skip
         return tuple(written), ()
-    return _Resolver(report).run(written)
+    return _Resolver(report).run(nested(written, report))
 
 
 class _Resolver:
@@ -63,28 +60,21 @@ class _Resolver:
         self.names: set[str] = set()
         self.next_label = 0
         self.uncounted: list[KeywordBlock] = []
-        self.open: list[KeywordBlock] = []
         self.held: _Part | None = None
-        self.assembly: _Part | None = None
-        self.own: Scope | None = None
+        self.assembled = False
 
     def run(self, written: Sequence[KeywordBlock]) -> tuple[tuple[KeywordBlock, ...], tuple[tuple[int, str], ...]]:
         """Resolve all blocks."""
         self._number_assembly(written)
         for block in written:
-            handler = getattr(self, "_" + block.keyword.lower().replace(" ", "_"), None)
-            if block.keyword in STRUCTURE and handler is not None:
-                handler(block)
+            if block.keyword in STRUCTURE:
+                getattr(self, "_" + block.keyword.lower().replace(" ", "_"))(block)
             elif self.held is not None:
                 self.held.blocks.append(block)
-            elif self.assembly is not None or self.own is not None:
+            elif self.assembled:
                 self.flat.append(self._of_assembly(block))
             else:
                 self.flat.append(block)
-        for block in self.open:
-            self._tell("structure", block, f"no *END {block.keyword}", f"*END {block.keyword}")
-            if block.keyword == "INSTANCE":
-                self._end_instance(block)
         return tuple(placed_nodes(self.flat)), tuple(self.instances)
 
     def _tell(self, rule: str, block: KeywordBlock, found: object, expected: str) -> None:
@@ -109,66 +99,27 @@ class _Resolver:
     # structure ------------------------------------------------------------------------------------------------
 
     def _part(self, block: KeywordBlock) -> None:
-        self._close_unfinished(block)
         name = block.parameters.get("NAME") or ""
         if name in self.parts:
             self._tell("duplicate-name", block, f"part {name} twice", "each part once")
         self.held = self.parts[name] = _Part(name, block)
-        self.open.append(block)
 
     def _end_part(self, block: KeywordBlock) -> None:
-        self._close(block, "PART")
         self.held = None
 
     def _assembly(self, block: KeywordBlock) -> None:
-        self._close_unfinished(block)
-        self.assembly = _Part("", block)
-        self.open.append(block)
+        self.assembled = True
 
     def _end_assembly(self, block: KeywordBlock) -> None:
-        self._close(block, "ASSEMBLY")
-        self.own, self.assembly = Scope("", 0, frozenset()), None
+        """What follows refers to names of instances as the assembly does."""
 
     def _instance(self, block: KeywordBlock) -> None:
-        if self.held is not None and self.held.at.keyword == "INSTANCE":
-            self._tell("structure", block, f"*INSTANCE of {self.held.at.where} not ended", "*END INSTANCE first")
-            self._end_instance(block)
         self.held = _Part(block.parameters.get("NAME") or "", block)
-        self.open.append(block)
 
     def _end_instance(self, block: KeywordBlock) -> None:
-        if self.held is None or self.held.at.keyword != "INSTANCE":
-            self._close(block, "INSTANCE")
-            return
-        own = self.held
-        self.held = None
-        if block.keyword == "END INSTANCE":
-            self._close(block, "INSTANCE")
-        elif own.at in self.open:
-            self.open.remove(own.at)
+        own, self.held = self.held, None
+        assert own is not None  # what ends has begun: see `nested`
         self._place(own)
-
-    def _close(self, block: KeywordBlock, keyword: str) -> None:
-        if self.open and self.open[-1].keyword == keyword:
-            self.open.pop()
-            return
-        if any(one.keyword == keyword for one in self.open):
-            while self.open[-1].keyword != keyword:
-                missing = self.open.pop()
-                self._tell("structure", missing, f"no *END {missing.keyword}", f"*END {missing.keyword}")
-            self.open.pop()
-            return
-        self._tell("structure", block, f"no *{keyword} open", f"*{keyword} before it")
-
-    def _close_unfinished(self, block: KeywordBlock) -> None:
-        """A part or assembly begins: whatever part is still open has lost its end."""
-        while self.open and self.open[-1].keyword in ("PART", "INSTANCE"):
-            missing = self.open.pop()
-            self._tell(
-                "structure", missing, f"*{block.keyword} at line {block.line} before *END {missing.keyword}",
-                f"*END {missing.keyword}",
-            )  # fmt: skip
-            self.held = None
 
     # instances ------------------------------------------------------------------------------------------------
 

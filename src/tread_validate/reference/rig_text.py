@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError, one_line
 from ..instrument.cells import COMMA, EMPTY, POINT
+from ..text_table import leading_comments
 from .rig_units import channel_factor, is_channel, stem
 
 Array = NDArray[np.float64]
@@ -85,13 +86,7 @@ def _layout(path: Path) -> _Layout:
     if "\x00" in text:
         raise InputError(path, "binary data (a NUL byte)", "text, or a file named .tdms")
     lines = text.splitlines()
-    comments: dict[str, str] = {}
-    start = 0
-    while start < len(lines) and (not lines[start].strip() or lines[start].lstrip().startswith("#")):
-        key, colon, value = lines[start].lstrip("# ").partition(":")
-        if colon:
-            comments[key.strip()] = value.strip()
-        start += 1
+    comments, start = leading_comments(lines)
     start = _heading(lines, start)
     if start + 1 >= len(lines):
         raise InputError(path, "no rows", "a heading with column names over rows of numbers")

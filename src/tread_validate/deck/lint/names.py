@@ -35,8 +35,8 @@ NAMED = {
 }
 """Keywords that define a name, and by which parameter."""
 
-UNENDED = re.compile(r"\bno \*END (PART|INSTANCE)|before \*END INSTANCE")
-"""What the reader says of a part or instance whose end is missing: it may have swallowed the rest of the deck."""
+UNENDED = re.compile(r"\bno \*END (PART|INSTANCE)")
+"""What the reader says of a part or instance whose end is missing where it may have swallowed lines that follow it."""
 
 
 @dataclass

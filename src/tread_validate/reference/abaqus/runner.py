@@ -6,6 +6,7 @@ licence should look at first is listed in docs/own_data.md.
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
@@ -113,8 +114,9 @@ def run_abaqus(
         _copy(included, work / included.relative_to(source.resolve().parent))
     arguments = [f"job={job}", f"input={source.name}"]
     if user is not None:
-        _copy(Path(user), work / Path(user).name)
-        arguments.append(f"user={Path(user).name}")
+        routine = routine_name(Path(user), os.name)
+        _copy(Path(user), work / routine)
+        arguments.append(f"user={routine}")
     arguments += [*shlex.split(settings.arguments), f"cpus={settings.cpus}", "ask_delete=OFF", "interactive"]
     started = clock()
     waited = _solve([*shlex.split(settings.queue), *command, *arguments], work, job, settings, say, sleep, clock)
@@ -135,6 +137,11 @@ def run_abaqus(
         "licence_wait_s": round(waited, 3),
     }
     return Imported(imported.history, record)
+
+
+def routine_name(user: Path, system: str) -> str:
+    """Return what a Fortran source is called on a system (`os.name`): on Windows ABAQUS takes ``.for``, else ``.f``."""
+    return user.with_suffix(".for").name if system == "nt" and user.suffix == ".f" else user.name
 
 
 def _solve(

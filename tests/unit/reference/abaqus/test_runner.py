@@ -9,6 +9,7 @@ import pytest
 
 from tread_validate.errors import EngineError, InputError
 from tread_validate.reference.abaqus import AbaqusSettings, load_settings, run_abaqus
+from tread_validate.reference.abaqus.runner import routine_name
 
 STAND_IN = Path(__file__).parent / "stand_in"
 COMMAND = str(STAND_IN / "abaqus")
@@ -124,3 +125,16 @@ def test_forces_of_half_a_block_are_doubled(deck, user, work):
     imported = run_abaqus(deck, user, work, AbaqusSettings(command=COMMAND), say=lambda _: None)
     assert imported.history.normal_force.max() == pytest.approx(400.0, rel=1e-3)
     assert imported.record["symmetry"] == "half, forces doubled"
+
+
+@pytest.mark.parametrize(
+    ("user", "system", "called"),
+    [
+        ("vfric.f", "posix", "vfric.f"),
+        ("vfric.f", "nt", "vfric.for"),
+        ("vfriction.f", "nt", "vfriction.for"),
+        ("v.obj", "nt", "v.obj"),
+    ],
+)
+def test_a_routine_has_the_ending_that_the_system_expects(user, system, called):
+    assert routine_name(Path(user), system) == called

@@ -131,6 +131,13 @@ def sha256(path):
     return digest.hexdigest()
 
 
+def routine_of(folder, job):
+    """Return the path of the friction routine of a job: decks with general contact have one of their own."""
+    name = "vfriction" if job.endswith("-general-contact") else "vfric"
+    windows = os.path.join(folder, name + ".for")
+    return windows if os.path.isfile(windows) else os.path.join(folder, name + ".f")
+
+
 def csv_text(notes, times, columns):
     """Return the table with its notes."""
     names = [name for name in CONTACT if name in columns]
@@ -172,7 +179,7 @@ def extract(odb_path, output, step_name):
             ("step_duration_s", "%.9g" % float(getattr(step, "timePeriod", times[-1]))),
             ("clock", "step"),
             ("deck_sha256", sha256(os.path.join(folder, job + ".inp"))),
-            ("user_sha256", sha256(os.path.join(folder, "vfric.f"))),
+            ("user_sha256", sha256(routine_of(folder, job))),
         ]
     finally:
         odb.close()
