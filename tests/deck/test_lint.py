@@ -266,6 +266,15 @@ def test_sets_by_generate_and_of_sets_are_followed(texts: dict[str, str], tmp_pa
     assert [one.rule for one in lint(file)] == ["dangling-nset"]
 
 
+def test_a_surface_of_revolution_has_one_line_for_its_axis(tmp_path: Path) -> None:
+    """A ball on its axis is a sound profile; the two lines of a cylinder are not."""
+    ball = "*SURFACE, TYPE=REVOLUTION, NAME=BALL\n0., 0., 0., 0., 0., 1.\nSTART, 0., 5.\nCIRCL, 5., 0., 0., 0.\n"
+    file = tmp_path / "ball.inp"
+    for text, expected in ((ball, 0), (ball.replace("START", "0., 1., 0.\nSTART"), 1)):
+        file.write_text(f"*HEADING\na ball\n{text}", encoding="utf-8")
+        assert [one.rule for one in lint(file)].count("profile") == expected
+
+
 def test_deck_of_parts_is_checked_for_form_and_says_so(tmp_path: Path) -> None:
     file = tmp_path / "parts.inp"
     file.write_text("*HEADING\nparts\n*PART, NAME=A\n*NODE\n1, 0., 0., 0.\n*END PART\n*STEP\n*DYNMIC\n*END STEP\n")

@@ -1,4 +1,4 @@
-"""Kinematic contact of slave nodes with rigid profiles: predict, then correct.
+"""Kinematic contact of slave nodes with rigid profiles, swept or revolved: predict, then correct.
 
 The trial position of a slave node at the end of the increment, made without contact, is compared with the master where
 it will be. A node that would be inside is put on the surface; the force that does this, m d/(dt dt_mean), is the
@@ -125,11 +125,18 @@ def find_contacts(pair, turn, turn_old, half_sum, dt, nodes):  # type: ignore[no
             local[c] = turn[0, c] * point[0] + turn[1, c] * point[1] + turn[2, c] * point[2] - origin[c]
         px = frame[0, 0] * local[0] + frame[0, 1] * local[1] + frame[0, 2] * local[2]
         py = frame[1, 0] * local[0] + frame[1, 1] * local[1] + frame[1, 2] * local[2]
+        cosine, sine = 1.0, 0.0
+        if pair.revolved[0]:
+            pz = frame[2, 0] * local[0] + frame[2, 1] * local[1] + frame[2, 2] * local[2]
+            r = math.sqrt(px * px + pz * pz)
+            if r > 0.0:
+                cosine, sine = px / r, pz / r
+            px = r
         gap, nx, ny = project(pair.segments, px, py)
         if not gap < 0.0:
             continue
         for c in range(3):
-            local[c] = nx * frame[0, c] + ny * frame[1, c]
+            local[c] = nx * (cosine * frame[0, c] + sine * frame[2, c]) + ny * frame[1, c]
         n0 = turn[0, 0] * local[0] + turn[0, 1] * local[1] + turn[0, 2] * local[2]
         n1 = turn[1, 0] * local[0] + turn[1, 1] * local[1] + turn[1, 2] * local[2]
         n2 = turn[2, 0] * local[0] + turn[2, 1] * local[1] + turn[2, 2] * local[2]

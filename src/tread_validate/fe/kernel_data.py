@@ -109,6 +109,7 @@ class Pair(NamedTuple):
     segments: Any
     origin: Any
     frame: Any
+    revolved: Any
     body: Any
     kind: Any
     coefficient: Any

@@ -184,7 +184,7 @@ def _surface(block: KeywordBlock, mesh: Mesh) -> None:
     name = block.value("NAME")
     if name in mesh.faces or name in mesh.rigid_surfaces:
         raise InputError(block.where, f"surface {name} twice", "each surface once")
-    if block.parameters.get("TYPE") == "CYLINDER":
+    if block.parameters.get("TYPE") in ("CYLINDER", "REVOLUTION"):
         mesh.rigid_surfaces[name] = read_rigid_surface(block)
         return
     parts: list[Ints] = []

@@ -113,7 +113,9 @@ def _rigid_bodies(blocks: list[KeywordBlock], mesh: Mesh) -> list[RigidBody]:
         if block.parameters.get("ANALYTICAL SURFACE"):
             name = block.value("ANALYTICAL SURFACE")
             if name not in mesh.rigid_surfaces:
-                raise InputError(block.where, f"analytical surface {name}", "a *SURFACE, TYPE=CYLINDER that exists")
+                raise InputError(
+                    block.where, f"analytical surface {name}", "a *SURFACE, TYPE=CYLINDER or REVOLUTION that exists"
+                )
             surface = mesh.rigid_surfaces[name]
         elif not tied.size:
             raise InputError(block.where, "a rigid body of nothing", "TIE NSET, PIN NSET or ANALYTICAL SURFACE")

@@ -87,6 +87,7 @@ def _pair(
         np.ascontiguousarray(surface.segments),
         surface.origin - model.mesh.coordinates[reference],
         surface.frame,
+        surface.revolved,
         body,
         friction,
         0 if routine is None else routine.address,
@@ -100,7 +101,7 @@ def _empty() -> PairData:
     none = np.zeros(0, dtype=np.int64)
     pair = _assemble(
         none, np.zeros(0, dtype=np.bool_), np.zeros(0), np.zeros((0, 4), dtype=np.int64), np.zeros((0, 7)), np.zeros(3),
-        np.eye(3), -1, SurfaceFriction(0), 0, arguments,
+        np.eye(3), False, -1, SurfaceFriction(0), 0, arguments,
     )  # fmt: skip
     return PairData(pair, arguments, ContactPair("", "", "", ""), none)
 
@@ -113,6 +114,7 @@ def _assemble(
     segments: Floats,
     origin: Floats,
     frame: Floats,
+    revolved: bool,
     body: int,
     friction: SurfaceFriction,
     address: int,
@@ -128,6 +130,7 @@ def _assemble(
         segments=segments,
         origin=origin,
         frame=frame,
+        revolved=np.array([revolved]),
         body=np.array([body], dtype=np.int64),
         kind=np.array([friction.kind], dtype=np.int64),
         coefficient=np.array([friction.coefficient]),
@@ -164,7 +167,10 @@ def gaps(data: PairData, bodies: Bodies, coordinates: Floats, u: Floats) -> Floa
     body = int(pair.body[0])
     points = coordinates[pair.slaves] + u.reshape(-1, 3)[pair.slaves]
     local = (points - bodies.reference[body] - bodies.motion[body, :3]) @ bodies.turn[body] - pair.origin
-    plane = local @ pair.frame[:2].T
+    plane = local @ pair.frame.T
+    if pair.revolved[0]:
+        plane[:, 0] = np.hypot(plane[:, 0], plane[:, 2])
+    plane = plane[:, :2]
     return np.array([project(pair.segments, x, y)[0] for x, y in plane], dtype=np.float64)
 
 

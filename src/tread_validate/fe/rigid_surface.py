@@ -1,4 +1,4 @@
-"""Analytical rigid surfaces: a profile of lines and arcs swept along a generator."""
+"""Analytical rigid surfaces: a profile of lines and arcs swept along a generator or turned about an axis."""
 
 from __future__ import annotations
 
@@ -18,17 +18,19 @@ HALF_TURN = math.pi * (1.0 - 1e-9)
 
 @dataclass(frozen=True)
 class RigidSurface:
-    """An analytical surface of TYPE=CYLINDER.
+    """An analytical surface of TYPE=CYLINDER or TYPE=REVOLUTION.
 
     Attributes
     ----------
     origin : (3,), frame : (3, 3)
         Rows of `frame` are the local x, y and generator directions; y is x cross the generator, which is the
-        negative local z axis.
+        negative local z axis. Of a surface of revolution y is the axis, and the profile's x the distance from it.
     segments : (k, 7)
         See the columns above. The outward normal lies to the left of the direction of travel in the local x, y plane.
     name : str
     where : str
+    revolved : bool
+        TYPE=REVOLUTION.
     """
 
     origin: NDArray[np.float64]
@@ -36,16 +38,20 @@ class RigidSurface:
     segments: NDArray[np.float64]
     name: str
     where: str
+    revolved: bool = False
 
 
 def read_rigid_surface(block: KeywordBlock) -> RigidSurface:
-    """Read ``*SURFACE, TYPE=CYLINDER``.
+    """Read ``*SURFACE, TYPE=CYLINDER`` or ``TYPE=REVOLUTION``.
 
     Raises
     ------
     InputError
-        Points that fix no frame, a profile without START, arcs of 180 degrees or more or of two radii.
+        Points that fix no frame, a profile without START, arcs of 180 degrees or more or of two radii; a profile that
+        crosses its axis of revolution.
     """
+    if block.parameters.get("TYPE") == "REVOLUTION":
+        return _revolved(block)
     if len(block.data) < 4:
         raise InputError(block.where, f"{len(block.data)} data lines", "two frame lines, START and a LINE or CIRCL")
     first, second, start, *rest = block.data
@@ -62,6 +68,47 @@ def read_rigid_surface(block: KeywordBlock) -> RigidSurface:
         raise InputError(second.where, "a generator that is not normal to the local x axis", "a right angle")
     # ABAQUS sweeps along the negative local z: the local y axis is x cross generator
     frame = np.array([x, np.cross(x, z), z])
+    return RigidSurface(a, frame, _profile(start, rest), block.value("NAME"), block.where)
+
+
+def _revolved(block: KeywordBlock) -> RigidSurface:
+    """Read the surface whose profile in the r, z plane is turned about the axis from point a to point b."""
+    if len(block.data) < 3:
+        raise InputError(block.where, f"{len(block.data)} data lines", "a line for the axis, START and a LINE or CIRCL")
+    first, start, *rest = block.data
+    a = np.array([first.number_at(i, "a coordinate") for i in range(3)])
+    axis = np.array([first.number_at(i, "a coordinate") for i in range(3, 6)]) - a
+    if not np.linalg.norm(axis) > 0:
+        raise InputError(first.where, "points that coincide", "a and b apart")
+    axis /= np.linalg.norm(axis)
+    across = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    across /= np.linalg.norm(across)
+    segments = _profile(start, rest)
+    least, extent = _least_radius(segments), float(np.abs(segments[:, 1:4]).max())
+    if least < -1e-9 * extent:
+        raise InputError(
+            block.where, f"a profile down to r = {least:g}", "r of 0 or more: the profile turns about r = 0"
+        )
+    frame = np.array([across, axis, np.cross(across, axis)])
+    return RigidSurface(a, frame, segments, block.value("NAME"), block.where, revolved=True)
+
+
+def _least_radius(segments: NDArray[np.float64]) -> float:
+    """Return the least x of a profile."""
+    found: list[float] = []
+    for kind, x, _, third, _, fifth, sweep in segments.tolist():
+        if kind == 0.0:
+            found += [x, x + third * fifth]
+            continue
+        ends = sorted((fifth, fifth + sweep))
+        # an arc that passes the half turn has its least x there
+        passes = any(ends[0] < turn < ends[1] for turn in (-math.pi, math.pi))
+        found += [x + third * math.cos(angle) for angle in ends] + ([x - third] if passes else [])
+    return min(found)
+
+
+def _profile(start: DataLine, rest: list[DataLine]) -> NDArray[np.float64]:
+    """Read START, LINE and CIRCL into segments, (k, 7)."""
     if not start.fields or start.fields[0].upper() != "START":
         raise InputError(start.where, start.text, "START, x, y")
     at = (start.number_at(1, "x"), start.number_at(2, "y"))
@@ -78,7 +125,7 @@ def read_rigid_surface(block: KeywordBlock) -> RigidSurface:
         else:
             raise InputError(line.where, word or line.text, "LINE or CIRCL")
         at = to
-    return RigidSurface(a, frame, np.array(segments), block.value("NAME"), block.where)
+    return np.array(segments)
 
 
 def _line(at: tuple[float, float], to: tuple[float, float], line: DataLine) -> list[float]:

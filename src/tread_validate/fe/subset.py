@@ -42,7 +42,9 @@ SUBSET: dict[str, Keyword] = {
     "ELEMENT": Keyword("model", {"TYPE": ("C3D8R", "C3D8"), "ELSET": ANY}, ("TYPE",)),
     "NSET": Keyword("model", {"NSET": ANY, "GENERATE": ANY, "ELSET": ANY, "INTERNAL": ANY, "UNSORTED": ANY}, ("NSET",)),
     "ELSET": Keyword("model", {"ELSET": ANY, "GENERATE": ANY, "INTERNAL": ANY, "UNSORTED": ANY}, ("ELSET",)),
-    "SURFACE": Keyword("model", {"NAME": ANY, "TYPE": ("ELEMENT", "CYLINDER"), "INTERNAL": ANY}, ("NAME",)),
+    "SURFACE": Keyword(
+        "model", {"NAME": ANY, "TYPE": ("ELEMENT", "CYLINDER", "REVOLUTION"), "INTERNAL": ANY}, ("NAME",)
+    ),
     "MATERIAL": Keyword("model", {"NAME": ANY}, ("NAME",)),
     "DENSITY": Keyword("model", {}),
     "ELASTIC": Keyword("model", {"TYPE": ("ISOTROPIC",), "MODULI": ("INSTANTANEOUS", "LONG TERM")}),

@@ -134,8 +134,10 @@ def moved_nodes(block: KeywordBlock, motion: RigidMotion, first_label: int) -> K
 def moved_profile(block: KeywordBlock, motion: RigidMotion) -> KeywordBlock:
     """Return an analytical ``*SURFACE`` with the points that fix its axes placed.
 
-    Without such points the local x and y are those of the part, swept along its negative z.
+    Without such points the local x and y of a cylinder are those of the part, swept along its negative z.
     """
+    if block.parameters.get("TYPE") == "REVOLUTION":
+        return _moved_axis(block, motion)
     if block.parameters.get("TYPE") != "CYLINDER":
         if not motion.is_identity:
             raise InputError(f"{block.where}: *SURFACE", f"TYPE={block.parameters.get('TYPE')} moved", "TYPE=CYLINDER")
@@ -153,8 +155,25 @@ def moved_profile(block: KeywordBlock, motion: RigidMotion) -> KeywordBlock:
     else:
         return block
     a, b, c = motion.place(points).tolist()
-    lines = [DataLine(block.file, block.line, ", ".join(map(repr, [*a, *b]))),
-             DataLine(block.file, block.line, ", ".join(map(repr, c))), *block.data[start:]]  # fmt: skip
+    return _with_axes(block, [[*a, *b], c], start)
+
+
+def _moved_axis(block: KeywordBlock, motion: RigidMotion) -> KeywordBlock:
+    """Return a surface of revolution with the two points of its axis placed."""
+    words = [line.fields[0].upper() if line.fields else "" for line in block.data]
+    if "START" not in words[:2] or words[0] == "START":
+        raise InputError(
+            f"{block.where}: *SURFACE", "TYPE=REVOLUTION without its axis", "a line of two points on it before START"
+        )
+    if motion.is_identity:
+        return block
+    a, b = motion.place(np.reshape(_numbers(block.data[0], 6, "a coordinate"), (2, 3))).tolist()
+    return _with_axes(block, [[*a, *b]], 1)
+
+
+def _with_axes(block: KeywordBlock, axes: list[list[float]], start: int) -> KeywordBlock:
+    """Return an analytical surface with these lines in place of those before START."""
+    lines = [*(DataLine(block.file, block.line, ", ".join(map(repr, points))) for points in axes), *block.data[start:]]
     data = Lines([one.file for one in lines], [one.number for one in lines], [one.text for one in lines])
     return KeywordBlock("SURFACE", block.parameters, data, block.file, block.line, block.raw)
 

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tread_validate.errors import InputError
 from tread_validate.fe.amplitude import Amplitude, amplitude_at
 from tread_validate.fe.contact_kernel import project
 from tread_validate.fe.relaxation import gauss_rule
@@ -59,6 +60,21 @@ def test_gap_from_a_wheel_is_the_distance_less_its_radius(wheel, angle: float, r
     gap, nx, ny = project(wheel.segments, radius * math.cos(angle), radius * math.sin(angle))
     assert gap == pytest.approx(radius - 5.0, abs=1e-9)
     assert (nx, ny) == pytest.approx((math.cos(angle), math.sin(angle)), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("profile", "expected"),
+    [
+        ("START, -1., 5.\nLINE, 9., 5.\n", "s.inp:1: got a profile down to r = -1"),
+        ("START, 3., 4.\nCIRCL, 3., -4., 3., 0.\n", "180 degrees"),
+        ("START, 3., 4.\nCIRCL, -1., 0., 3., 0.\nCIRCL, 3., -4., 3., 0.\n", "down to r = -1"),
+        ("START, 1., 4.\nCIRCL, 1., -4., 4., 0.\n", "down to r = -1"),
+    ],
+    ids=["line", "half turn", "arcs", "arc between its ends"],
+)
+def test_a_profile_that_crosses_its_axis_of_revolution_is_refused(tmp_path: Path, profile: str, expected: str) -> None:
+    with pytest.raises(InputError, match=expected):
+        surface(tmp_path, f"*SURFACE, TYPE=REVOLUTION, NAME=R\n0., 0., 0., 0., 0., 2.\n{profile}")
 
 
 @given(x=st.floats(10.001, 1e3), y=st.floats(-5.0, 5.0))

@@ -147,6 +147,26 @@ def test_an_analytical_surface_moves_with_its_instance(tmp_path: Path) -> None:
     assert (body.value("REF NODE"), body.value("ANALYTICAL SURFACE")) == ("ROAD-1.RP", "ROAD-1.FLAT")
 
 
+BALL = (
+    "*Part, name=Ball\n*End Part\n*Assembly, name=A\n*Instance, name=B-1, part=Ball\n0., 4., 0.\n"
+    "0., 0., 0., 0., 0., 1., 90.\n*Surface, type=REVOLUTION, name=Ball\n1., 0., 0., 1., 2., 0.\nSTART, 0., 5.\n"
+    "CIRCL, 5., 0., 0., 0.\n*End Instance\n*End Assembly\n"
+)
+
+
+def test_the_axis_of_a_surface_of_revolution_moves_with_its_instance(tmp_path: Path) -> None:
+    """Lifted by 4 along y, turned by 90 degrees about z: (1, 0, 0) goes to (-4, 1, 0) and (1, 2, 0) to (-6, 1, 0)."""
+    surface = next(deck_of(tmp_path, PART + BALL).named("SURFACE"))
+    axis = [float(text) for text in surface.data[0].fields]
+    np.testing.assert_allclose(axis, [-4, 1, 0, -6, 1, 0], atol=1e-15)
+    assert [line.fields[0] for line in surface.data[1:]] == ["START", "CIRCL"]
+
+
+def test_a_surface_of_revolution_without_its_axis_stops_at_its_line(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"a\.inp:\d+.*without its axis"):
+        deck_of(tmp_path, PART + BALL.replace("1., 0., 0., 1., 2., 0.\n", ""))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "line", "says"),
     [

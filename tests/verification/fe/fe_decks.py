@@ -134,6 +134,25 @@ def wheel(radius: float, low: float = 0.0) -> str:
     )
 
 
+def sphere(radius: float) -> str:
+    """A rigid sphere ROAD about the z axis, its pole at z = 0, on reference node 900001 (set ROADREF)."""
+    return (
+        f"*NODE, NSET=ROADREF\n900001, 0., 0., {-radius!r}\n*SURFACE, TYPE=REVOLUTION, NAME=ROAD\n"
+        f"0., 0., {-radius!r}, 0., 0., 0.\nSTART, 0., {radius!r}\nCIRCL, {radius!r}, 0., 0., 0.\n"
+        "*RIGID BODY, REF NODE=900001, ANALYTICAL SURFACE=ROAD\n"
+    )
+
+
+def disc(centre: tuple[float, float]) -> str:
+    """A rigid disc ROAD of 1 m at z = 0, outward +z, turned about a vertical axis through `centre`."""
+    x, y = centre
+    return (
+        "*NODE, NSET=ROADREF\n900001, 0., 0., 0.\n*SURFACE, TYPE=REVOLUTION, NAME=ROAD\n"
+        f"{x!r}, {y!r}, -1., {x!r}, {y!r}, 1.\nSTART, 0., 1.\nLINE, 1000., 1.\n"
+        "*RIGID BODY, REF NODE=900001, ANALYTICAL SURFACE=ROAD\n"
+    )
+
+
 def coulomb(mu: float) -> str:
     """Built-in friction; the interaction is called TOUCH."""
     return f"*SURFACE INTERACTION, NAME=TOUCH\n*FRICTION\n{mu!r},\n"

@@ -47,6 +47,27 @@ def test_constant_coefficient_by_vfric_equals_built_in_friction(tmp_path: Path, 
     assert max(built_in.samples.slipping) > 0.05, "some of the contact slips"
 
 
+def test_a_disc_made_by_revolution_is_the_plane_made_by_sweeping(tmp_path: Path, fe: ModuleType) -> None:
+    """Pressed, rubbed and slipping: forces agree to 1e-9 of their peak, wherever the disc's axis stands, even under
+    the block.
+    """
+    block, period = fe.brick(4, 3, 2, 8.0, 6.0, 4.0), 4e-4
+    found = []
+    for road in (fe.plane(), fe.disc((2.0, 3.0)), fe.disc((-7.0, 1.5))):
+        text = (
+            block.text() + fe.elastic(20.0, 0.47) + road + fe.coulomb(0.3)
+            + f"*AMPLITUDE, NAME=A, DEFINITION=SMOOTH STEP\n0., 0., {0.5 * period}, 1.\n"
+            + "*BOUNDARY\nROADREF, 1, 6\nTOP, 2, 2\n"
+            + fe.step(period, "*BOUNDARY, AMPLITUDE=A\nTOP, 1, 1, 0.2\nTOP, 3, 3, -0.1\n", fe.CONTACT)
+        )  # fmt: skip
+        found.append(fe.run(tmp_path, text).samples)
+    for name in ("normal", "tangential"):
+        plane, *discs = (np.array(getattr(samples, name)) for samples in found)
+        for disc in discs:
+            assert np.abs(disc - plane).max() < 1e-9 * np.abs(plane).max()
+    assert max(found[0].slipping) > 0.05
+
+
 @pytest.mark.parametrize(("mu0", "slope"), [(0.4, 0.0), (0.2, 1.5e-5)], ids=["constant", "rising with speed"])
 def test_thrown_block_slows_down_as_its_equation_of_motion_says(
     tmp_path: Path, fe: ModuleType, mu0: float, slope: float

@@ -94,8 +94,9 @@ def _check_profile(block: KeywordBlock, kind: str, findings: Findings) -> None:
             findings.add(lines[0], "profile", "axes: expected 6 coordinates, then 3")
         elif axes[0] is not None and axes[1] is not None:
             _check_axes(axes[0], axes[1], lines[0], findings)
-    elif start not in (0, 2) or (kind != "CYLINDER" and start > 1):
-        findings.add(lines[0], "profile", f"{start} lines before START: expected the two lines that fix the axes")
+    elif start not in (0, {"CYLINDER": 2, "REVOLUTION": 1}.get(kind, 0)):
+        fixed = {"CYLINDER": "the two lines that fix the axes", "REVOLUTION": "one line, two points on the axis"}
+        findings.add(lines[0], "profile", f"{start} lines before START: expected {fixed.get(kind, 'none')}")
     at = _numbers(lines[start], 1, 2)
     if at is None:
         findings.add(lines[start], "profile", "START: expected two coordinates")
