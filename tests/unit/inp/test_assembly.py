@@ -172,7 +172,7 @@ def test_a_surface_of_revolution_without_its_axis_stops_at_its_line(tmp_path: Pa
     [
         ("part=Block\n*End", "part=Blok\n*End", 23, "part BLOK"),
         ("*End Part\n", "", 3, "END PART"),
-        ("*End Instance\n*Inst", "*Inst", 24, "END INSTANCE"),
+        ("*End Instance\n*Inst", "*Inst", 23, "line 24 before \\*END INSTANCE"),
         ("*End Assembly\n", "", 22, "END ASSEMBLY"),
         ("instance=Block-1", "instance=Blok-1", 33, "instance BLOK-1"),
         ('name="Block, 2"', "name=Block-1", 25, "BLOCK-1 twice"),
