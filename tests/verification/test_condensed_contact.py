@@ -209,9 +209,26 @@ def test_steps_cover_the_pass_and_grow_only_while_the_whole_face_is_down(belt):
     down = (begin > 25e-3 - 1e-6) & (begin < total - 25e-3 - 1e-6)
     quiet = (begin > 39e-3) & (place[1:] < total - 39e-3)
     assert travel.max() < 8e-3 * 1.001
-    assert travel[~down].max() < 0.5e-3 * 1.001
-    assert np.sum(travel[down & ~quiet] > 1e-3 * 1.001) <= 2  # the steps that straddle the limits
+    near = begin > -1e-3 - 1e-9  # before that the face flies, which takes no steps
+    assert travel[near & ~down].max() < 0.6e-3 * 1.001
+    assert np.sum(travel[down & ~quiet] > 1.5e-3 * 1.001) <= 2  # the steps that straddle the limits
     assert travel[quiet].max() == pytest.approx(8e-3)
+
+
+@pytest.mark.parametrize(
+    "name", ["belt-simplified-60c-0p2mm-16p7mps-creep0p3", "belt-midtop-60c-0p2mm-16p7mps-creep0p3"]
+)
+def test_where_nodes_stick_does_not_depend_on_the_steps(name, study_cases):
+    """A pass begins clear of the road, and a node touches where its own free motion within the step takes it: with
+    steps a quarter as long peaks move by 0.06 % (N) and 0.08 % (T)."""
+    case = study_cases[name]
+    one, fine = rolled(case, CondensedSettings()), rolled(case, CondensedSettings(step=0.15, middle_step=0.375))
+    largest = np.abs(fine.tangential_force).max()
+    assert one.normal_force.max() == pytest.approx(fine.normal_force.max(), rel=1.5e-3)
+    assert one.tangential_force.max() == pytest.approx(fine.tangential_force.max(), abs=2e-3 * largest)
+    assert one.tangential_force.min() == pytest.approx(fine.tangential_force.min(), abs=2e-3 * largest)
+    impulse, finer = (np.trapezoid(face.tangential_force, face.time) for face in (one, fine))
+    assert impulse == pytest.approx(finer, abs=1e-3 * largest * fine.time[-1])
 
 
 @pytest.mark.parametrize(("name", "normal", "tangential"), [("belt", 0.01, 0.03), ("rig", 0.04, 0.08)])

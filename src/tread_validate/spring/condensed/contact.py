@@ -122,7 +122,7 @@ def _catch_up(operator: Singles, force: Array, late: Array, begin: int, end: int
     """Add to the forces on the nodes begin..end what the others' changes of q, `late`, made of them."""
     for i in range(late.shape[0]):
         if late[i, 0] != 0.0 or late[i, 1] != 0.0 or late[i, 2] != 0.0:
-            _spread(operator, force, i, late[i, 0], late[i, 1], late[i, 2], begin, end)
+            spread(operator, force, i, late[i, 0], late[i, 1], late[i, 2], begin, end)
 
 
 @kernel()
@@ -196,9 +196,9 @@ def _sweep(
                 q[i, 0] += dx
                 q[i, 1] += dy
                 q[i, 2] += dz
-            _spread(operator, force, i, dx, dy, dz, 0, begin)
+            spread(operator, force, i, dx, dy, dz, 0, begin)
             if begin < n:
-                _spread(operator, force, i, dx, dy, dz, end, n)
+                spread(operator, force, i, dx, dy, dz, end, n)
                 late[i, 0] += dx
                 late[i, 1] += dy
                 late[i, 2] += dz
@@ -291,7 +291,7 @@ def _slide(a: Six, f: Three, g: Three, area: float, tempo: Tempo, law: KernelLaw
 
 
 @kernel(reorder=True)
-def _spread(operator: Singles, force: Array, i: int, dx: float, dy: float, dz: float, begin: int, end: int) -> None:
+def spread(operator: Singles, force: Array, i: int, dx: float, dy: float, dz: float, begin: int, end: int) -> None:
     """Add the forces that a change of one node's q makes on the nodes begin..end (rows of the symmetric matrix)."""
     sx, sy, sz = np.float32(dx), np.float32(dy), np.float32(dz)
     # without a sign, so that no index counts from the end and the loop uses vector units; views would cost more

@@ -156,11 +156,9 @@ class FaceState(NamedTuple):
     scale : (1,) array, N
         Largest nodal force of the step before.
     shift, flow : (n, 3) arrays, m and m/s
-        Displacement of the unloaded face of second order, when it was last found, and its rate.
-    seen : (n, 3) array, m
-        Displacement of the face it was found for.
-    pace : (2,) array, s
-        Time between the last two times that it was found, and time since.
+        Displacement of the unloaded face of second order, and its rate over the step before.
+    pace : (1,) array, s
+        Length of that step.
     """
 
     w: Array
@@ -172,7 +170,6 @@ class FaceState(NamedTuple):
     scale: Array
     shift: Array
     flow: Array
-    seen: Array
     pace: Array
 
 
@@ -266,7 +263,7 @@ def fresh_state(nodes: int, terms: int) -> FaceState:
     return FaceState(
         np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((terms, nodes, 3)), np.zeros((nodes, 3)),
         np.zeros(nodes, dtype=np.int64), np.zeros((nodes, 3)), np.full(1, 1e-3), np.zeros((nodes, 3)),
-        np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros(2),
+        np.zeros((nodes, 3)), np.zeros(1),
     )  # fmt: skip
 
 

@@ -55,6 +55,20 @@ def pose_at(course: Course, k: int) -> Pose:
     return Pose(course.origin[k, 0], course.origin[k, 1], course.angle[k], unloaded, bend, rise)
 
 
+def clear_at_first(course: Course, road_radius: float) -> bool:
+    """Tell whether no node of the unloaded face is in the road at the first time.
+
+    `road_radius` (m) is inf for a plane.
+    """
+    x, y = course.unloaded[0, :, 0], course.unloaded[0, :, 1]
+    cosine, sine = np.cos(course.angle[0]), np.sin(course.angle[0])
+    along = course.origin[0, 0] + cosine * x - sine * y
+    up = course.origin[0, 1] + sine * x + cosine * y - course.rise[0]
+    if np.isinf(road_radius):
+        return bool(np.all(up > 0.0))
+    return bool(np.all(along**2 + (up + road_radius) ** 2 > road_radius**2))
+
+
 @kernel()
 def start(pose: Pose, scene: Scene, state: FaceState, work: Scratch) -> None:
     """Put the unloaded face where the mount holds it."""
@@ -89,7 +103,7 @@ def take_step(
     Sweeps of -1 say that the window's operator is not there yet; the state is then as it was.
     """
     pose = shifted(pose, scene.second, state, dt, work)
-    stiffening, first, last = approach(pose, scene, state, dt, work)
+    stiffening, first, last, lands = approach(pose, scene, state, dt, work)
     tempo = Tempo(stiffening, dt)
     a, b, sweeps = 0, 0, 0
     while True:
@@ -103,7 +117,7 @@ def take_step(
                 return a, b, -1
             begin, end = windows.first[a], windows.first[b]
             operator = operator_at(windows, offset, 3 * (end - begin))
-        sweeps += hold(operator, windows, begin, end, scene, tempo, state, work)
+        sweeps += hold(operator, windows, begin, end, lands, pose, scene, tempo, state, work)
         first, last = widest(pose, scene, state, tempo, begin, end, work)
         if first == begin and last == end:
             break

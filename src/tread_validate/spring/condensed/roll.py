@@ -16,13 +16,18 @@ from ..inputs import KernelLaw
 from ..rubber import law_of, series_of
 from .body import Body, BodySettings, fitted
 from .inputs import SLIP, SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
-from .march import Course, Record, march, pose_at, start
+from .march import Course, Record, clear_at_first, march, pose_at, start
 from .mesh_body import mesh_file_of
 from .motion import free_shape, motion
 from .operators import FaceOperators
 from .store import ReadyFace, ready
 
 Array = NDArray[np.float64]
+
+
+LEAD, LONGEST_LEAD = 2.0, 64.0
+"""Elements of travel before the first contact of a column at which a pass starts: the bent mount pushes the face's
+corner out, which meets the road earlier. Doubled until the face is clear of the road, up to the longest."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +59,8 @@ class CondensedSettings:
     density: float = 8.0
     layers: int = 12
     body: BodySettings | None = None
-    step: float = 0.5
-    middle_step: float = 1.0
+    step: float = 0.6
+    middle_step: float = 1.5
     longest_step: float = 8.0
     finite_strain: bool = True
     mesh_correction: bool = True
@@ -127,9 +132,18 @@ def roll(
     path = path_of(case)
     face, scene, division = scene_of(case, path, settings, series, friction)
     scene = scene._replace(road=RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio)))
-    time = step_times(path, division.face_size, settings)
     bend = face.bend if settings.finite_strain else face.bend[:0]
-    moves = motion(path, face.shape, face.body, face.follow, bend, case.height, time)
+    lead = LEAD
+    while True:
+        time = step_times(path, division.face_size, settings, lead)
+        moves = motion(path, face.shape, face.body, face.follow, bend, case.height, time)
+        if clear_at_first(moves, path.road.radius):
+            break
+        if lead > LONGEST_LEAD:
+            raise InputError(
+                f"case {case.case_id}: path", "a face in the road all the time", "a path that comes down to it"
+            )
+        lead *= 2.0
     known = face.operators.count
     record = run_course(moves, scene, face.operators)
     if face.operators.count > known:
@@ -174,20 +188,20 @@ def run_course(moves: Course, scene: Scene, parts: FaceOperators) -> Record:
         parts.add(a, b)
 
 
-def step_times(path: Path, size: float, settings: CondensedSettings) -> Array:
+def step_times(path: Path, size: float, settings: CondensedSettings, lead: float = LEAD) -> Array:
     """Return the times of the steps, s: fine while the contact's edges move, longer while the whole face is down.
 
-    `size` is the length of the face's elements in m.
+    `size` is the length of the face's elements in m; `lead` of them pass before the first contact.
     """
     fine, longest = settings.step * size, settings.longest_step * size
     extent = path.columns.extent
     if path.columns.together:  # nothing rolls over the face: it is pressed, and slides, as a whole
         even = min(fine / path.speed, 2.0 * path.finest_time)
-        return np.arange(-2.0 * even, 1.05 * path.contact_duration, even)
+        return np.arange(-lead * even, 1.05 * path.contact_duration, even)
     total = path.contact_duration * path.speed
     edge = extent + max(0.0, _approach(path))
     down, quiet = (extent, total - extent), (edge, total - edge)
-    travel = [-2.0 * fine]
+    travel = [-lead * size, -0.5 * lead * size]
     end = total + 3.0 * size
     step = fine
     while travel[-1] < end - 1e-3 * fine:

@@ -25,10 +25,8 @@ from .products import combine
 
 LARGEST = 0.5
 """Norm of H beyond which P2 grows no more: there a second order says nothing."""
-CHANGE = 0.1
-"""v is found at every other step, and whenever a displacement has changed by this part of the largest one."""
 FARTHEST = 2.0
-"""v is extrapolated over at most so many times the time between the last two."""
+"""v is extrapolated over at most so many times the step before."""
 
 
 @kernel()
@@ -36,7 +34,7 @@ def shifted(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: 
     """Return the pose with the unloaded face moved to where it will be after `dt`."""
     if second.near.shape[0] == 0:
         return pose
-    ahead = min(state.pace[1] + dt, FARTHEST * state.pace[0])
+    ahead = min(dt, FARTHEST * state.pace[0])
     for i in range(state.shift.shape[0]):
         for c in range(3):
             work.unloaded[i, c] = pose.unloaded[i, c] + state.shift[i, c] + ahead * state.flow[i, c]
@@ -48,10 +46,9 @@ def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work
     """Find the shift of the unloaded face that goes with the displacements after a step of `dt` to a moved `pose`."""
     if second.near.shape[0] == 0:
         return
-    state.pace[1] += dt
-    if not _due(pose, second, state, dt, work):
-        return
-    dt = state.pace[1]
+    for i in range(state.w.shape[0]):
+        for c in range(3):
+            work.moved[c, i] = pose.unloaded[i, c] + state.w[i, c] - second.free[i, c]
     _strain(pose, second, state, work)
     _stress(second, work.gradient)
     work.gradient[:] *= np.float32(second.spread_unit)
@@ -63,7 +60,7 @@ def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work
                 moved += second.share[i, k] * work.coarse[3 * second.near[i, k] + c]
             state.flow[i, c] = (moved - state.shift[i, c]) / dt
             state.shift[i, c] = moved
-    state.pace[0], state.pace[1] = dt, 0.0
+    state.pace[0] = dt
 
 
 @kernel()
@@ -73,26 +70,8 @@ def rest(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) -> Po
         return pose
     for _ in range(3):
         follow_up(shifted(pose, second, state, 0.0, work), second, state, 1.0, work)
-    state.flow[:], state.pace[:] = 0.0, 0.0
+    state.flow[:], state.pace[0] = 0.0, 0.0
     return shifted(pose, second, state, 0.0, work)
-
-
-@kernel()
-def _due(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scratch) -> bool:
-    """Write the face's displacements to `work.moved`; tell whether it is time to find v anew."""
-    largest, change = 0.0, 0.0
-    for i in range(state.w.shape[0]):
-        for c in range(3):
-            moved = pose.unloaded[i, c] + state.w[i, c] - second.free[i, c]
-            work.moved[c, i] = moved
-            largest, change = max(largest, abs(moved)), max(change, abs(moved - state.seen[i, c]))
-    just_found = state.pace[1] == dt
-    if just_found and change <= CHANGE * largest:
-        return False
-    for i in range(state.w.shape[0]):
-        for c in range(3):
-            state.seen[i, c] = work.moved[c, i]
-    return True
 
 
 @kernel()

@@ -12,85 +12,63 @@ import numpy as np
 
 from ...kernels import kernel
 from .contact import ContactNodes, Tempo, solve_contact
-from .inputs import FREE, STICK, Array, FaceState, Integers, Operator, Pose, Scene, Scratch, Singles, Solid, Windows
+from .inputs import (
+    FREE,
+    STICK,
+    Array,
+    FaceState,
+    Integers,
+    Operator,
+    Pose,
+    Scene,
+    Scratch,
+    Singles,
+    Solid,
+    Solver,
+    Windows,
+)
 from .products import loads
+from .touch import aim, gap, retouch, turn_of
 
 SUNK = 1e-9
 """A node outside the window that stands deeper in the road than this (m) asks for a wider window."""
+ROUGH = 10.0
+"""Tolerance of the solution that tells where nodes touch, over that of the step."""
 
 
 @kernel()
-def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratch) -> tuple[float, int, int]:
+def approach(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratch) -> tuple[float, int, int, bool]:
     """Write first guess, target and road normal of every node to `work`.
 
-    Returns dq/dw over the step (Pa), the first node that touches or may touch, and the last one plus 1 (0, 0: none).
+    Returns dq/dw over the step (Pa), the first node that touches or may touch, the last one plus 1 (0, 0: none), and
+    whether a free node may touch.
     """
     solid, road = scene.solid, scene.road
     n, terms = state.w.shape[0], solid.moduli.size
-    cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
     stiffening = solid.long_term
     for j in range(terms):
         x = dt / solid.relaxation_times[j]
         work.decay[j] = math.exp(-x)
         stiffening += solid.moduli[j] * (-math.expm1(-x) / x)
     _relax(solid, state, work)
-    first, last = n, 0
-    q, target, relaxed = work.q, work.target, work.relaxed
+    first, last, lands = n, 0, False
+    q, relaxed = work.q, work.relaxed
     ahead = np.empty(3)
-    flat, whole = math.isinf(road.radius), dt * road.speed
-    turn_cosine, turn_sine = math.cos(whole / road.radius), math.sin(whole / road.radius)
+    turn = turn_of(road, dt)
     for i in range(n):
         before = state.code[i]
         work.before[i] = before
         for c in range(3):
             ahead[c] = state.w[i, c] + state.rate[i, c] * dt
             q[i, c] = relaxed[i, c] + stiffening * state.rate[i, c] * dt
-        place, unloaded = state.place[i], pose.unloaded[i]
-        x, y, z = place[0], place[1], place[2]
-        rest = 1.0
-        if before == FREE:
-            # a free node moves with its mount and its neighbours (where its displacement is heading) until it
-            # touches, part of the step, and with the road for the rest
-            fx, fy = unloaded[0] + ahead[0], unloaded[1] + ahead[1]
-            ax, ay = pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy
-            az = unloaded[2] + ahead[2]
-            new = _gap(ax, ay, road.radius, pose.rise)
-            part = 1.0
-            if new < 0.0:
-                old = _gap(x, y, road.radius, pose.rise)
-                part = min(max(old / (old - new), 0.0), 1.0) if old > 0.0 else 0.0
-            x, y, z = x + part * (ax - x), y + part * (ay - y), z + part * (az - z)
-            rest = 1.0 - part
-        if before != FREE or rest > 0.0:
+        if aim(i, ahead[0], ahead[1], ahead[2], pose, scene, state, stiffening, turn, work):
             first, last = min(first, i), i + 1
-        travel = rest * whole
-        if flat:
-            tx, ty, nx, ny = x + travel, pose.rise, 0.0, 1.0
-        else:
-            turned, across = turn_cosine, turn_sine
-            if rest == 0.0:
-                turned, across = 1.0, 0.0
-            elif rest < 1.0:
-                turned, across = math.cos(travel / road.radius), math.sin(travel / road.radius)
-            up = y + road.radius
-            far = 1.0 / math.sqrt(x * x + up * up)
-            nx, ny = far * (x * turned + up * across), far * (up * turned - x * across)
-            tx, ty = (road.radius + pose.rise) * nx, road.radius * (ny - 1.0) + pose.rise * ny
-        # into the block's frame, less the unloaded place: the displacement that the road imposes
-        gx, gy = tx - pose.x, ty - pose.y
-        ux = cosine * gx + sine * gy - unloaded[0]
-        uy = cosine * gy - sine * gx - unloaded[1]
-        uz = z - unloaded[2]
-        target[i, 0] = relaxed[i, 0] + stiffening * (ux - state.w[i, 0])
-        target[i, 1] = relaxed[i, 1] + stiffening * (uy - state.w[i, 1])
-        target[i, 2] = relaxed[i, 2] + stiffening * (uz - state.w[i, 2])
-        work.normal[i, 0] = cosine * nx + sine * ny
-        work.normal[i, 1] = cosine * ny - sine * nx
+            lands = lands or before == FREE
         if before == STICK:
-            q[i] = target[i]
+            q[i] = work.target[i]
     if last == 0:
         first = 0
-    return stiffening, first, last
+    return stiffening, first, last, lands
 
 
 @kernel()
@@ -99,6 +77,8 @@ def hold(
     windows: Windows,
     begin: int,
     end: int,
+    lands: bool,
+    pose: Pose,
     scene: Scene,
     tempo: Tempo,
     state: FaceState,
@@ -106,7 +86,8 @@ def hold(
 ) -> int:
     """Solve the contact of the nodes begin..end with the window's `operator`; return the number of sweeps.
 
-    Nodes outside are free of force, and their q follows from the forces.
+    Nodes outside are free of force, and their q follows from the forces. Where a free node `lands`, a rough solution
+    comes first, which tells where.
     """
     n = state.w.shape[0]
     state.force[:] = 0.0
@@ -125,7 +106,12 @@ def hold(
         nodes = ContactNodes(
             q, force, work.target[begin:end], work.normal[begin:end], area, work.before[begin:end], codes
         )
-        sweeps = solve_contact(operator.whole, nodes, tempo, scene.law, scene.solver, state.scale[0])
+        solver = scene.solver
+        if lands:
+            solver = Solver(ROUGH * solver.tolerance, solver.most_sweeps)
+        sweeps = solve_contact(operator.whole, nodes, tempo, scene.law, solver, state.scale[0])
+        if retouch(operator.whole, nodes, begin, pose, scene, state, tempo, work):
+            sweeps += solve_contact(operator.whole, nodes, tempo, scene.law, scene.solver, state.scale[0])
         for i in range(begin, end):
             if state.code[i] == FREE:
                 state.force[i] = 0.0
@@ -148,8 +134,8 @@ def widest(
         wx = state.w[i, 0] + (work.q[i, 0] - work.relaxed[i, 0]) / tempo.stiffening
         wy = state.w[i, 1] + (work.q[i, 1] - work.relaxed[i, 1]) / tempo.stiffening
         fx, fy = pose.unloaded[i, 0] + wx, pose.unloaded[i, 1] + wy
-        gap = _gap(pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy, road.radius, pose.rise)
-        if gap < -SUNK:
+        height = gap(pose.x + cosine * fx - sine * fy, pose.y + sine * fx + cosine * fy, road.radius, pose.rise)
+        if height < -SUNK:
             first, last = min(first, i), max(last, i + 1)
     return (first, last) if last > 0 else (0, 0)
 
@@ -255,10 +241,3 @@ def put(pose: Pose, state: FaceState) -> None:
         place[i, 0] = pose.x + cosine * x - sine * y
         place[i, 1] = pose.y + sine * x + cosine * y
         place[i, 2] = unloaded[i, 2] + w[i, 2]
-
-
-@kernel()
-def _gap(x: float, y: float, road_radius: float, rise: float) -> float:
-    if math.isinf(road_radius):
-        return y - rise
-    return math.sqrt(x * x + (y + road_radius) * (y + road_radius)) - road_radius - rise
