@@ -56,6 +56,19 @@ def test_lint_says_what_the_deck_states_and_no_other_error(deck: Path) -> None:
         assert [str(one) for one in findings] == []
 
 
+def test_what_calculix_passes_over_is_no_error_in_its_dialect_and_one_in_the_other() -> None:
+    deck = CORPUS / "29-calculix-words.inp"
+    assert {one.severity for one in lint(deck, "calculix")} == {"warning"}
+    assert {"TV001", "TV207", "TV014"} <= {one.code for one in lint(deck) if one.severity == "error"}
+
+
+def test_the_axis_of_a_revolved_tool_goes_where_its_instance_goes() -> None:
+    """Turned by 90 deg about x through its tip: the part's y axis becomes z."""
+    (surface,) = (one for one in read_deck(CORPUS / "26-revolved-tool.inp").named("SURFACE") if one.data[0].fields[5:])
+    axis = [float(text) for text in surface.data[0].fields]
+    assert axis == pytest.approx([0.5, 0.5, 1.1, 0.5, 0.5, 2.1], abs=1e-12)
+
+
 def test_a_deck_of_parts_runs_in_the_engine(tmp_path: Path) -> None:
     """The block of the assembly is pressed by 0.05 mm less 0.01 mm: contact pushes it up, and nothing slides."""
     result = run_deck(CAE)

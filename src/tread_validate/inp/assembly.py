@@ -13,8 +13,19 @@ from dataclasses import dataclass, field
 from ..errors import InputError
 from .deck import LARGEST_LABEL, KeywordBlock, label
 from .nesting import STRUCTURE, Report, nested
-from .placement import instance_motion, still
-from .qualify import DEFINES, REFERS, UNPLACED, Scope, largest_label, part_names, placed_nodes, qualified, round_up
+from .placement import can_move, instance_motion, still
+from .qualify import (
+    DEFINES,
+    REFERS,
+    UNPLACED,
+    Scope,
+    is_analytical,
+    largest_label,
+    part_names,
+    placed_nodes,
+    qualified,
+    round_up,
+)
 
 
 @dataclass
@@ -155,7 +166,8 @@ class _Resolver:
         self.instances.append((first, name))
         scope = Scope(name, first, frozenset(part_names(blocks)))
         for block in placed_nodes(blocks, motion, first):
-            if block.keyword in UNPLACED and (first or not motion.is_identity):
+            fixed = block.keyword == "SURFACE" and is_analytical(block) and not can_move(block)
+            if (fixed and not motion.is_identity) or (block.keyword in UNPLACED and (first or not motion.is_identity)):
                 self._tell("not-placed", block, f"in instance {name}, moved or renumbered", "an instance as it stands")
             self.flat.append(qualified(block, scope, motion))
 

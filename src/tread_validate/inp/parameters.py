@@ -35,7 +35,7 @@ LARGEST_INTEGER = 10**18
 
 
 def assign(line: str, known: dict[str, Value]) -> None:
-    """Evaluate one line ``name = expression`` into `known`; what follows ``#`` is a comment.
+    """Evaluate one line ``name = expression`` into `known`; ``;`` ends an expression, what follows ``#`` is a comment.
 
     Raises
     ------
@@ -43,6 +43,10 @@ def assign(line: str, known: dict[str, Value]) -> None:
         What is wrong, in a few words.
     """
     text = _without_comment(line)
+    if ";" in text and not {"'", '"'} & set(text):
+        for one in text.split(";"):
+            assign(one, known)
+        return
     if not text:
         return
     name, equals, expression = text.partition("=")

@@ -134,18 +134,14 @@ def moved_nodes(block: KeywordBlock, motion: RigidMotion, first_label: int) -> K
 def moved_profile(block: KeywordBlock, motion: RigidMotion) -> KeywordBlock:
     """Return an analytical ``*SURFACE`` with the points that fix its axes placed.
 
-    Without such points the local x and y of a cylinder are those of the part, swept along its negative z.
+    Without such points the local x and y of a cylinder are those of the part, swept along its negative z. What
+    `can_move` denies stays as it stands.
     """
+    start = _axis_lines(block)
+    if not can_move(block) or (motion.is_identity and start > 0):
+        return block
     if block.parameters.get("TYPE") == "REVOLUTION":
         return _moved_axis(block, motion)
-    if block.parameters.get("TYPE") != "CYLINDER":
-        if not motion.is_identity:
-            raise InputError(f"{block.where}: *SURFACE", f"TYPE={block.parameters.get('TYPE')} moved", "TYPE=CYLINDER")
-        return block
-    begins = [line.fields[0].upper() if line.fields else "" for line in block.data]
-    start = begins.index("START") if "START" in begins else 0
-    if motion.is_identity and start == 2:
-        return block
     if start == 0:
         points = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
     elif start == 2:
@@ -158,15 +154,20 @@ def moved_profile(block: KeywordBlock, motion: RigidMotion) -> KeywordBlock:
     return _with_axes(block, [[*a, *b], c], start)
 
 
+def can_move(block: KeywordBlock) -> bool:
+    """Whether `moved_profile` places an analytical ``*SURFACE``: a cylinder, or a revolution whose axis is given."""
+    kind = block.parameters.get("TYPE")
+    return kind == "CYLINDER" or (kind == "REVOLUTION" and _axis_lines(block) == 1)
+
+
+def _axis_lines(block: KeywordBlock) -> int:
+    """Return how many lines stand before START."""
+    begins = [line.fields[0].upper() if line.fields else "" for line in block.data]
+    return begins.index("START") if "START" in begins else 0
+
+
 def _moved_axis(block: KeywordBlock, motion: RigidMotion) -> KeywordBlock:
     """Return a surface of revolution with the two points of its axis placed."""
-    words = [line.fields[0].upper() if line.fields else "" for line in block.data]
-    if "START" not in words[:2] or words[0] == "START":
-        raise InputError(
-            f"{block.where}: *SURFACE", "TYPE=REVOLUTION without its axis", "a line of two points on it before START"
-        )
-    if motion.is_identity:
-        return block
     a, b = motion.place(np.reshape(_numbers(block.data[0], 6, "a coordinate"), (2, 3))).tolist()
     return _with_axes(block, [[*a, *b]], 1)
 

@@ -63,6 +63,11 @@ def placed_nodes(
             yield block
 
 
+def is_analytical(block: KeywordBlock) -> bool:
+    """Whether a ``*SURFACE`` is given by a profile."""
+    return block.parameters.get("TYPE") in ("CYLINDER", "REVOLUTION", "SEGMENTS")
+
+
 def part_names(blocks: Iterable[KeywordBlock]) -> Iterable[str]:
     """Yield the names that the blocks of a part define."""
     for block in blocks:
@@ -82,7 +87,7 @@ def qualified(block: KeywordBlock, scope: Scope, motion: RigidMotion, define: bo
             continue
         parameters[name] = label(scope.name(f'"{value}"' if not value.isdigit() else value))
     data = block.data
-    if block.keyword == "SURFACE" and (block.parameters.get("TYPE") or "ELEMENT") not in ("ELEMENT", "NODE"):
+    if block.keyword == "SURFACE" and is_analytical(block):
         block = moved_profile(block, motion)
         data = block.data
     elif block.keyword == "ELEMENT":

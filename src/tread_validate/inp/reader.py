@@ -65,7 +65,7 @@ def read_deck(path: Path | str, report: Report = stop) -> Deck:
     Raises
     ------
     InputError
-        A missing or binary file, more than the size limits, data before the first keyword, a parameter without a name
+        A missing or binary file, more than the size limits, a parameter without a name
         or given twice, an include that leaves the folder or includes itself.
     """
     source = Path(path)
@@ -154,7 +154,8 @@ class _Reader:
         if not texts:
             return
         if not self.blocks:
-            raise InputError(f"{name}:{numbers[0]}", texts[0][:40], "a keyword line first")
+            self.report("syntax", f"{name}:{numbers[0]}", texts[0][:40], "a keyword line first")
+            return
         block = self.blocks[-1]
         if block.keyword == "PARAMETER":
             self._assign(block, numbers, texts, name)
@@ -170,7 +171,12 @@ class _Reader:
             self.report("parameter", f"{block.file}:{block.line}", "*PARAMETER, TABLE", "name = expression")
             self.gaps.append("*PARAMETER, TABLE")
             return
+        begun = ""
         for number, text in zip(numbers, texts, strict=True):
+            if text.endswith("\\"):  # the language's own sign that an expression goes on
+                begun += text[:-1]
+                continue
+            text, begun = begun + text, ""
             try:
                 assign(text, self.parameters)
             except ValueError as error:
@@ -212,6 +218,10 @@ class _Reader:
     def _include(self, block: OpenBlock, path: Path, above: tuple[Path, ...]) -> None:
         """Read the file an *INCLUDE names."""
         where = f"{block.file}:{block.line}: *INCLUDE"
+        if set(block.parameters) == {"FILE"}:
+            self.report("missing-include", where, f"FILE={block.raw.get('FILE', '')}, not read", "INPUT=file")
+            self.gaps.append(block.raw.get("FILE", ""))
+            return
         if not set(block.parameters) <= {"INPUT", "PASSWORD"} or not block.raw.get("INPUT"):
             raise InputError(where, ", ".join(block.parameters) or "no parameter", "INPUT=file and nothing else")
         if "PASSWORD" in block.parameters:

@@ -21,8 +21,8 @@ from .syntax import check_syntax
 __all__ = ["FORMATS", "Dialect", "Finding", "LintRule", "catalogue", "find_rule", "formatted", "lint"]
 
 Dialect = Literal["abaqus", "calculix"]
-LAST_COUNTS = frozenset({"duplicate-name", "two-laws", "two-sections"})
-"""Rules about what is given twice: CalculiX goes on with the later one."""
+LENIENT = frozenset({"duplicate-name", "two-laws", "two-sections", "wrong-place", "step-order"})
+"""Rules about what CalculiX takes with a word: the later of what is given twice, history data after a step."""
 
 
 def lint(
@@ -47,13 +47,19 @@ def lint(
     """
     chosen, left = _rules(select), _rules(ignore)
     findings = Findings()
+    mild = "warning" if dialect == "calculix" else None  # it passes over lines before the first keyword
+
+    def report(rule: str, where: str, found: object, expected: str) -> None:
+        findings.at(where, rule, found, expected, mild if rule == "syntax" else None)  # type: ignore[arg-type]  # one of two literals
+
     try:
-        deck = read_deck(path, lambda rule, where, found, expected: findings.at(where, rule, found, expected))
+        deck = read_deck(path, report)
     except InputError as error:
         located = re.fullmatch(r"(.+?):(\d+)(?::.*)?", error.where)
         if located is None:
             raise
         message = f"{error.where.split(': ', 1)[-1]}: {error.found}, expected {error.expected}"
+        findings[:] = [one for one in findings if one.rule != "syntax"]  # what stopped the reader says it all
         findings.append(Finding(located[1], int(located[2]), "syntax", message))
     else:
         check_syntax(deck, findings, dialect)
@@ -65,7 +71,7 @@ def lint(
         else:
             check_steps(deck, findings)
     if dialect == "calculix":
-        findings[:] = [replace(one, severity="warning") if one.rule in LAST_COUNTS else one for one in findings]
+        findings[:] = [replace(one, severity="warning") if one.rule in LENIENT else one for one in findings]
     kept = [one for one in findings if (not chosen or one.rule in chosen) and one.rule not in left]
     return unique(kept)
 

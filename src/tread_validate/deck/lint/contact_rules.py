@@ -97,6 +97,8 @@ def _check_profile(block: KeywordBlock, kind: str, findings: Findings) -> None:
     elif start not in (0, {"CYLINDER": 2, "REVOLUTION": 1}.get(kind, 0)):
         fixed = {"CYLINDER": "the two lines that fix the axes", "REVOLUTION": "one line, two points on the axis"}
         findings.add(lines[0], "profile", f"{start} lines before START: expected {fixed.get(kind, 'none')}")
+    elif kind == "REVOLUTION" and start == 1 and _numbers(lines[0], 0, 6) is None:
+        findings.add(lines[0], "profile", "axis: expected 6 coordinates")
     at = _numbers(lines[start], 1, 2)
     if at is None:
         findings.add(lines[start], "profile", "START: expected two coordinates")

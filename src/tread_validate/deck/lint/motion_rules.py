@@ -6,6 +6,7 @@ import re
 from itertools import pairwise
 
 from ...inp import DataLine, Deck, KeywordBlock
+from ...inp.parameters import MARK
 from ...inp.vocabulary import keywords
 from .body_rules import check_rigid_bodies
 from .findings import Findings
@@ -49,6 +50,8 @@ def _amplitude(block: KeywordBlock, findings: Findings) -> Pairs:
     if definition not in ("TABULAR", "SMOOTH STEP"):
         return []
     pairs: Pairs = []
+    if any(MARK.search(text) for text in block.data.texts):
+        return []  # a name without a value is said elsewhere
     for line in block.data:
         fields = line.fields
         if len(fields) % 2 or not all(is_number(text) for text in fields):

@@ -125,7 +125,7 @@ def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
     for block in deck.named("CONTACT PAIR"):
         if block.parameters.get("CPSET"):
             pairs.setdefault(block.value("CPSET"), block)
-    _sets(deck, names, findings)
+    _sets(deck, names, findings, dialect)
     return names
 
 
@@ -134,7 +134,7 @@ def _may_repeat(block: KeywordBlock) -> bool:
     return block.keyword == "SURFACE" and bool({"COMBINE", "CROP", "TRIM"} & set(block.parameters))
 
 
-def _sets(deck: Deck, names: Names, findings: Findings) -> None:
+def _sets(deck: Deck, names: Names, findings: Findings, dialect: str) -> None:
     """Build the sets in the order of the deck, through the reading that the engines use."""
     ids = np.concatenate([part.ids for part in names.elements]) if names.elements else NO_IDS
 
@@ -143,7 +143,8 @@ def _sets(deck: Deck, names: Names, findings: Findings) -> None:
         return sorted_labels(np.concatenate(parts)) if parts else NO_IDS
 
     def report(rule: str, where: str, found: object, expected: str) -> None:
-        findings.at(where, rule, found, expected)
+        missing = rule in ("undefined-node", "undefined-element")  # CalculiX leaves them out of a set and goes on
+        findings.at(where, rule, found, expected, "warning" if missing and dialect == "calculix" else None)
 
     names.sets = Sets(names.node_ids, ids, nodes_of, report, names.open_mesh)
     for block in deck.blocks:
