@@ -22,6 +22,7 @@ study's kind stay below 0.0025, sliding that sticks and slips lies above 0.0065.
 WORST_ALTERNATION = 0.005
 """Largest share of the tangential impulse that chattering nodes may leave out: T/N of a face that slides steadily at a
 constant coefficient is that coefficient within as much."""
+NO_HISTORY = "no reliable history in this regime, stick and slip alternate"
 SHORTEST_STICK = 3
 """Samples up to which a stick between two slips is chatter: in a pass that rolls nodes stick for much longer."""
 
@@ -113,8 +114,8 @@ def reference_quality(balance: dict[str, float], scatter: float, chatter: float)
             ("energy unaccounted for is", balance["balance_error"], "internal energy or external work", WORST_BALANCE),
             ("artificial energy is", balance["artificial_share"], "internal energy", WORST_ARTIFICIAL),
             ("impacts took", balance["impact_share"], "internal energy or external work", WORST_IMPACT),
-            ("stick and slip alternate: T scatters by", scatter, "peak normal force", WORST_UNSTEADINESS),
-            ("stick and slip alternate: chatter leaves out", chatter, "tangential impulse", WORST_ALTERNATION),
+            (f"{NO_HISTORY}: T scatters by", scatter, "peak normal force", WORST_UNSTEADINESS),
+            (f"{NO_HISTORY}: chatter leaves out", chatter, "tangential impulse", WORST_ALTERNATION),
         )
         if not value <= limit
     ]

@@ -69,8 +69,8 @@ def fe_point(case: Case) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``bound`` (case, meshes, code, decks), ``fe_<n>`` (forces), ``residual_<n>`` and ``artificial_<n>`` (energies),
-        ``unsteadiness_<n>``, ``alternation_<n>``, ``seconds``; or ``refused``: why.
+        ``bound`` (case, meshes, code, decks), ``fe_<n>`` (forces), ``residual_<n>``, ``artificial_<n>`` and
+        ``impact_<n>`` (energies), ``unsteadiness_<n>``, ``alternation_<n>``, ``seconds``; or ``refused``: why.
     """
     begin = time.monotonic()
     found: dict[str, Any] = {}
@@ -116,6 +116,7 @@ def _fe_run(case: Case, parts: int) -> tuple[dict[str, Any], str]:
         f"fe_{parts}": forces_of(result.history),
         f"residual_{parts}": float(balance["balance_error"]),
         f"artificial_{parts}": float(balance["artificial_share"]),
+        f"impact_{parts}": float(balance["impact_share"]),
         f"unsteadiness_{parts}": float(result.record["unsteadiness"]),
         f"alternation_{parts}": float(result.record["alternation"]),
     }

@@ -30,7 +30,7 @@ class Expectation:
         Expected size of the error (root mean square of the nearest points, weighted by distance), relative; of T over
         the larger of its peaks. None where the map says nothing.
     likely : mapping of str to float
-        What nine in ten errors stay below, for each of the three.
+        What nine in ten errors stay below, for each of the three; empty outside the map, where nothing was tried.
     outside : tuple of str
         Why the case is outside the map; empty inside it.
     points : int
@@ -56,12 +56,16 @@ class Expectation:
         if self.normal is None:
             return f"outside the map: {'; '.join(self.outside)}{stale}"
         assert self.tangential is not None
+        if self.outside:
+            return (
+                f"outside the map ({'; '.join(self.outside)}), where no limit was tried: the nearest points err by "
+                f"{100 * self.normal:.1f} % in N and {100 * self.tangential:.1f} % in T{stale}"
+            )
         found = " and ".join(
             f"of {name} {100 * of:.1f} % (nine in ten below {100 * self.likely[each]:.1f} %)"
             for name, each, of in (("N", "normal", self.normal), ("T", "tangential", self.tangential))
         )
-        found = f"expected error {found}{stale}"
-        return found if not self.outside else f"outside the map ({'; '.join(self.outside)}): nearest points {found}"
+        return f"expected error {found}{stale}"
 
 
 class Rule:
@@ -89,12 +93,13 @@ class Rule:
         near = neighbours(coordinates(here), known, ranges(known)[2])
         expected = {each: near.expected(model, each) for each in ERRORS}
         widened = self.factors(model)
+        outside = (*outside, *_beyond(case, here, known))
         return Expectation(
             normal=expected["normal"],
             impulse=expected["impulse"],
             tangential=expected["tangential"],
-            likely={each: widened[each] * near.scale(model, each) for each in ERRORS},
-            outside=(*outside, *_beyond(case, here, known)),
+            likely={} if outside else {each: widened[each] * near.scale(model, each) for each in ERRORS},
+            outside=outside,
             points=len(known),
             worst={each: near.worst(model, each) for each in ERRORS},
             stale=stale,

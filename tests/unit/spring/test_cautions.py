@@ -40,6 +40,7 @@ def test_each_limit_is_said_where_it_is_passed(belt):
         (replace(belt, compound=rubbery), "Poisson's ratio 0.4999"),
         (changed(belt, edge_radius_mm=5.0), "path radius 5 mm"),
         (replace(belt, speed=60.0), "shear wave"),
+        (replace(belt, interference=0.02e-3), "the road meets the face at 0.5"),
     ):
         assert any(said in line for line in cautions(case, "condensed")), said
     assert "lumped mass" in cautions(replace(belt, speed=60.0), "paper")[0]

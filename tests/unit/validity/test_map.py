@@ -115,6 +115,7 @@ def test_a_refused_point_is_none(cases):
     [
         {"residual_6": 0.02},
         {"artificial_6": 0.03},
+        {"impact_6": 0.03},
         {"unsteadiness_6": 0.01},
         {"alternation_6": 0.03},
         {"fe_6": {"normal": 90.0}},
@@ -122,16 +123,28 @@ def test_a_refused_point_is_none(cases):
     ],
 )
 def test_an_fe_run_that_is_no_reference_makes_no_point(fault):
-    """Energy residual above 1 %, hourglass energy above 2 %, T scatters, nodes chatter, 5 % from the meshes' limit."""
+    """Energy residual above 1 %, hourglass energy or impacts above 2 %, scattering T, chatter, 5 % from the limit."""
     data = {
         "residual_6": 0.0,
         "artificial_6": 0.001,
+        "impact_6": 0.001,
         "unsteadiness_6": 0.001,
         "alternation_6": 0.0,
         "fe_6": {"normal": 99.0},
         "limit": {"normal": 100.0},
     }
     assert is_reference({**data, **fault}, 6) == (not fault)
+
+
+def test_a_contact_shorter_than_three_elements_of_the_finer_mesh_makes_no_point(cases):
+    """2 sqrt(2 D R) on the rig: D/h = 0.01, R/h = 2.7 and 3.5: 2.8 and 3.2 elements. A belt has a patch."""
+    forces = {"normal": 100.0, "impulse": 2.0, "positive": 20.0, "negative": -10.0}
+    shares = dict.fromkeys(("residual_6", "artificial_6", "impact_6", "unsteadiness_6", "alternation_6"), 0.0)
+    groups = asdict(groups_of(cases[0])) | {"interference": 0.01, "length": 1.0}
+    data = {**shares, "case_id": "map-000", "fe_6": forces, "limit": forces, "models": {"paper": forces}}
+    for kind, radius, made in (("rig, flat", 2.7, False), ("rig, flat", 3.5, True), ("belt, flat", 2.7, True)):
+        found = point_of({**data, "kind": kind, "groups": {**groups, "radius": radius}}, 6)
+        assert (found is not None) == made
 
 
 def test_the_rule_finds_an_error_that_depends_on_the_groups(cases):
@@ -279,7 +292,10 @@ def test_the_rule_says_where_it_ends(cases, base):
     rubbery = replace(inside, compound=inside.compound.model_copy(update={"poissons_ratio": 0.4999}))
     assert "poisson" in expected_error(rubbery, "condensed", points).outside
     deep = replace(inside, interference=0.3 * inside.height)
-    assert "interference" in expected_error(deep, "condensed", points).outside
+    beyond = expected_error(deep, "condensed", points)
+    assert "interference" in beyond.outside
+    assert not beyond.likely, "outside the map no limit was tried"
+    assert "nine in ten" not in str(beyond)
     huemer = replace(inside, friction=base.friction, creep_ratio=0.2)
     assert any("law" in why for why in expected_error(huemer, "condensed", points).outside)
     few = expected_error(inside, "condensed", points[:NEAREST])
