@@ -53,7 +53,7 @@ def press(body, face, time, depth, series, friction, slide=None, tolerance=1e-9)
         KernelLaw(friction.static_coefficient, *friction.kernel_arguments),
         Solver(tolerance, 5000),
     )
-    force, _, state, _ = run_course(Course(time, np.zeros(time.size), origin, unloaded), scene, parts)
+    force, _, state, *_ = run_course(Course(time, np.zeros(time.size), origin, unloaded), scene, parts)
     return 2 * force.sum(axis=1), force, state
 
 
@@ -211,7 +211,7 @@ def test_steps_cover_the_pass_and_grow_only_while_the_whole_face_is_down(belt):
     assert travel.max() < 8e-3 * 1.001
     near = begin > -1e-3 - 1e-9  # before that the face flies, which takes no steps
     assert travel[near & ~down].max() < 0.6e-3 * 1.001
-    assert np.sum(travel[down & ~quiet] > 1.5e-3 * 1.001) <= 2  # the steps that straddle the limits
+    assert np.sum(travel[down & ~quiet] > 2e-3 * 1.001) <= 2  # the steps that straddle the limits
     assert travel[quiet].max() == pytest.approx(8e-3)
 
 
@@ -220,9 +220,9 @@ def test_steps_cover_the_pass_and_grow_only_while_the_whole_face_is_down(belt):
 )
 def test_where_nodes_stick_does_not_depend_on_the_steps(name, study_cases):
     """A pass begins clear of the road, and a node touches where its own free motion within the step takes it: with
-    steps a quarter as long peaks move by 0.06 % (N) and 0.08 % (T)."""
+    steps a quarter as long peaks move by 0.06 % (N) and 0.02 % (T)."""
     case = study_cases[name]
-    one, fine = rolled(case, CondensedSettings()), rolled(case, CondensedSettings(step=0.15, middle_step=0.375))
+    one, fine = rolled(case, CondensedSettings()), rolled(case, CondensedSettings(step=0.15, middle_step=0.5))
     largest = np.abs(fine.tangential_force).max()
     assert one.normal_force.max() == pytest.approx(fine.normal_force.max(), rel=1.5e-3)
     assert one.tangential_force.max() == pytest.approx(fine.tangential_force.max(), abs=2e-3 * largest)

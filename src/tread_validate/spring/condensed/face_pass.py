@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from ...geometry import path_of
 from ...study import Case
-from .roll import CondensedSettings, FacePass, roll
+from .roll import CondensedSettings, FacePass, Ride, ride_of, roll
 from .stepping import FaceBlock
 
 Array = NDArray[np.float64]
@@ -23,7 +24,7 @@ SAMPLES = 1500
 
 @dataclass(frozen=True)
 class CondensedPass:
-    """A case ready to run at any creep ratio, and the shorthand `roll` of its settings."""
+    """A case ready to run at any creep ratio."""
 
     case: Case
     settings: CondensedSettings
@@ -37,19 +38,24 @@ class CondensedPass:
 
     def forces(self, creep_ratio: float) -> Array:
         """Return normal force, shear force (N, positive like lambda), touching and slipping area (m2), (n, 4)."""
-        face = self.face(creep_ratio)
-        copies = face.copies
-        touching = copies * ((face.state > 0) @ face.body.area)
-        slipping = touching * face.slipping_fraction
-        time = self.step * np.arange(int(np.ceil(face.time[-1] / self.step)))
-        smooth = PchipInterpolator(face.time, np.column_stack([face.normal_force, -face.tangential_force]))(time)
-        areas = [np.interp(time, face.time, values) for values in (touching, slipping)]
+        at = self._ride.moves.time
+        along, up, touching, slipping = self._sums(creep_ratio).T
+        time = self.step * np.arange(int(np.ceil(at[-1] / self.step)))
+        smooth = PchipInterpolator(at, np.column_stack([up, along]))(time)
+        areas = [np.interp(time, at, values) for values in (touching, slipping)]
         return np.column_stack([smooth, *areas])
 
     def net_shear_impulse(self, creep_ratio: float) -> float:
         """Return the time integral of the shear force over the pass, N s."""
-        face = self.face(creep_ratio)
-        return float(-np.trapezoid(face.tangential_force, face.time))
+        return float(np.trapezoid(self._sums(creep_ratio)[:, 0], self._ride.moves.time))
+
+    @cached_property
+    def _ride(self) -> Ride:
+        return ride_of(self.case, self.settings)
+
+    def _sums(self, creep_ratio: float) -> Array:
+        """Return the sums of the record for the whole block."""
+        return self._ride.copies * self._ride.record(creep_ratio, nodal=False).sums
 
 
 def prepare_condensed(case: Case, settings: CondensedSettings | None = None) -> CondensedPass:

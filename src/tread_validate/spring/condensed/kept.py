@@ -29,8 +29,8 @@ PAGE, ALIGNED = 4096, 64
 """Bytes of a file's head, and what its arrays are aligned to."""
 SOURCES = (
     "body.py", "condense.py", "element.py", "finite_strain.py", "inputs.py", "mesh_body.py", "mesh_condense.py",
-    "operators.py", "store.py", "stuck.py", "symmetry.py", "../stiffness.py", "../../geometry/mesh_file.py",
-    "../../units.py",
+    "operators.py", "polygon.py", "store.py", "stuck.py", "symmetry.py", "../stiffness.py",
+    "../../geometry/mesh_file.py", "../../units.py",
 )  # fmt: skip
 """What decides the arrays, beside NumPy and SciPy; a test holds the list to the import graph."""
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...kernels import kernel
 from .contact import Tempo
-from .inputs import ROWS, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Windows
+from .inputs import FREE, ROWS, SLIP, Array, FaceState, Integers, Pose, Scene, Scratch, Singles, Windows
 from .products import operator_at
 from .second_order import follow_up, rest, shifted
 from .step import approach, hold, put, settle, widest
@@ -38,12 +38,26 @@ class Course(NamedTuple):
 
 
 class Record(NamedTuple):
-    """What a pass leaves: forces (m, n, 3) in N in the axle frame, displacements, states and sweeps."""
+    """What a pass leaves: forces (m, n, 3) in N in the axle frame, displacements, states and sweeps; and sums.
+
+    The first three have no rows where nodes are not asked for. `sums` (m, 4): force along x and y (N), touching and
+    slipping area (m2), of the half block where that is modelled.
+    """
 
     force: Array
     displacement: Array
     code: Integers
     sweeps: Integers
+    sums: Array
+
+
+def record_of(steps: int, nodes: int, nodal: bool = True) -> Record:
+    """Return an empty record; `nodal`: with what each node does."""
+    kept = steps if nodal else 0
+    return Record(
+        np.zeros((kept, nodes, 3)), np.zeros((kept, nodes, 3)), np.zeros((kept, nodes), dtype=np.int64),
+        np.zeros(steps, dtype=np.int64), np.zeros((steps, 4)),
+    )  # fmt: skip
 
 
 @kernel()
@@ -72,7 +86,7 @@ def clear_at_first(course: Course, road_radius: float) -> bool:
 @kernel()
 def start(pose: Pose, scene: Scene, state: FaceState, work: Scratch) -> None:
     """Put the unloaded face where the mount holds it."""
-    put(rest(pose, scene.second, state, work), state)
+    put(rest(pose, scene, state, work), state)
 
 
 @kernel()
@@ -90,7 +104,9 @@ def march(
         if sweeps < 0:
             return k, a, b
         record.sweeps[k] = sweeps
-        _write(course.angle[k], state, record, k)
+        _add_up(course.angle[k], scene.face.area, state, record.sums[k])
+        if record.code.shape[0] > 0:
+            _write(course.angle[k], state, record, k)
     return course.time.size, 0, 0
 
 
@@ -102,7 +118,7 @@ def take_step(
 
     Sweeps of -1 say that the window's operator is not there yet; the state is then as it was.
     """
-    pose = shifted(pose, scene.second, state, dt, work)
+    unshifted, pose = pose, shifted(pose, scene, state, dt, work)
     stiffening, first, last, lands = approach(pose, scene, state, dt, work)
     tempo = Tempo(stiffening, dt)
     a, b, sweeps = 0, 0, 0
@@ -122,7 +138,7 @@ def take_step(
         if first == begin and last == end:
             break
     settle(pose, scene.solid, state, tempo, work)
-    follow_up(pose, scene.second, state, dt, work)
+    follow_up(unshifted, scene.second, state, dt, work)
     return a, b, sweeps
 
 
@@ -132,6 +148,20 @@ def cells_of(row: Integers, cells: int, first: int, last: int) -> tuple[int, int
     a = row[first] // ROWS
     b = min(row[last - 1] // ROWS + 1, cells)
     return a, b
+
+
+@kernel()
+def _add_up(angle: float, area: Array, state: FaceState, sums: Array) -> None:
+    x, y, touching, slipping = 0.0, 0.0, 0.0, 0.0
+    for i in range(area.size):
+        if state.code[i] != FREE:
+            x += state.force[i, 0]
+            y += state.force[i, 1]
+            touching += area[i]
+            if state.code[i] == SLIP:
+                slipping += area[i]
+    cosine, sine = np.cos(angle), np.sin(angle)
+    sums[0], sums[1], sums[2], sums[3] = cosine * x - sine * y, sine * x + cosine * y, touching, slipping
 
 
 @kernel()

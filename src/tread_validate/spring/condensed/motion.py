@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from ...geometry import Path
 from ...study import Block
-from .body import Body, FreeShape
+from .body import FreeShape
 from .inputs import Singles
 from .march import Course
-from .polygon import Polygon
+from .store import ReadyFace
 
 Array = NDArray[np.float64]
 
@@ -27,30 +27,28 @@ def free_shape(path: Path, block: Block) -> FreeShape:
     return FreeShape() if flat else FreeShape(path.block_curvature())
 
 
-def motion(
-    path: Path, shape: FreeShape, body: Body, follow: Array, bend: Singles, height: float, time: Array
-) -> Course:
-    """Return frame and unloaded face of `body` at `time` (m,) in s; `follow` as in `FaceStiffness`.
+def motion(path: Path, ready: ReadyFace, bend: Singles, height: float, time: Array) -> Course:
+    """Return frame and unloaded face at `time` (m,) in s.
 
     `bend` (9 e, 2 k) are the gradients in the elements of `SecondOrder` for unit displacement of each knot.
 
     The block bends as its mount does; a rigid mount leaves the unloaded face as it is.
     """
-    middle = 0.5 * path.columns.extent
+    body, middle = ready.body, 0.5 * path.columns.extent
     x, y, theta = _places(path, middle, time)
     origin = np.column_stack([x, y])
     if path.line.ring_radius is not None:
-        raised = Polygon(body).rise(body.face[None], path.road.radius)
+        raised = ready.polygon.rise(body.face[None], path.road.radius)
         return Course(time, theta, origin, body.face[None], np.zeros((1, 0), dtype=np.float32), raised)
     cosine, sine = np.cos(theta)[:, None], np.sin(theta)[:, None]
     knots_x, knots_y, _ = _places(path, middle - body.knots, time[:, None])
     dx, dy = knots_x - x[:, None], knots_y - y[:, None]
-    free = shape.mount(body.knots, height)
+    free = ready.shape.mount(body.knots, height)
     moved = np.hstack([cosine * dx + sine * dy - free[:, 0], cosine * dy - sine * dx - free[:, 1]])
-    unloaded = (moved @ follow.T).reshape(time.size, -1, 3)
+    unloaded = (moved @ ready.follow.T).reshape(time.size, -1, 3)
     unloaded += body.face
     gradients = moved.astype(np.float32) @ bend.T
-    raised = Polygon(body).rise(unloaded, path.road.radius)
+    raised = ready.polygon.rise(unloaded, path.road.radius)
     return Course(time, theta, origin, unloaded, gradients, raised)
 
 

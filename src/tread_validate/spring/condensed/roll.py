@@ -16,7 +16,7 @@ from ..inputs import KernelLaw
 from ..rubber import law_of, series_of
 from .body import Body, BodySettings, fitted
 from .inputs import SLIP, SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
-from .march import Course, Record, clear_at_first, march, pose_at, start
+from .march import Course, Record, clear_at_first, march, pose_at, record_of, start
 from .mesh_body import mesh_file_of
 from .motion import free_shape, motion
 from .operators import FaceOperators
@@ -60,7 +60,7 @@ class CondensedSettings:
     layers: int = 12
     body: BodySettings | None = None
     step: float = 0.6
-    middle_step: float = 1.5
+    middle_step: float = 2.0
     longest_step: float = 8.0
     finite_strain: bool = True
     mesh_correction: bool = True
@@ -126,29 +126,57 @@ def roll(
     `series` (at the case's temperature) and `friction` replace the case's own where given. Raises `InputError` for a
     case without a creep ratio, and for a path or a block that will not do.
     """
-    settings = settings or CondensedSettings()
     if case.creep_ratio is None:
         raise InputError(f"case {case.case_id}: creep ratio", "none yet", "a resolved free-rolling case")
+    ride = ride_of(case, settings or CondensedSettings(), series, friction)
+    return FacePass(ride.face.body, ride.moves.time, *ride.record(case.creep_ratio)[:4])
+
+
+@dataclass(frozen=True)
+class Ride:
+    """A case's face on its path, ready to roll at any creep ratio; `speed` (m/s) is the path's."""
+
+    face: ReadyFace
+    scene: Scene
+    moves: Course
+    speed: float
+
+    @property
+    def copies(self) -> float:
+        """How many times the body stands in the block."""
+        return 2.0 if self.face.body.half else 1.0
+
+    def record(self, creep_ratio: float, nodal: bool = True) -> Record:
+        """Run the pass; `nodal`: with what each node does."""
+        parts = self.face.operators
+        known = parts.count
+        road = RoadMotion(self.scene.road.radius, self.speed * (1.0 + creep_ratio))
+        record = run_course(self.moves, self.scene._replace(road=road), parts, nodal)
+        if parts.count > known:
+            self.face.remember()
+        return record
+
+
+def ride_of(
+    case: Case,
+    settings: CondensedSettings,
+    series: PronySeries | None = None,
+    friction: FrictionLaw | None = None,
+) -> Ride:
+    """Return the case on its path; arguments and errors as of `roll`, whatever the case's creep ratio."""
     path = path_of(case)
     face, scene, division = scene_of(case, path, settings, series, friction)
-    scene = scene._replace(road=RoadMotion(path.road.radius, path.speed * (1.0 + case.creep_ratio)))
     bend = face.bend if settings.finite_strain else face.bend[:0]
     lead = LEAD
     while True:
         time = step_times(path, division.face_size, settings, lead)
-        moves = motion(path, face.shape, face.body, face.follow, bend, case.height, time)
+        moves = motion(path, face, bend, case.height, time)
         if clear_at_first(moves, path.road.radius):
-            break
+            return Ride(face, scene, moves, path.speed)
         if lead > LONGEST_LEAD:
-            raise InputError(
-                f"case {case.case_id}: path", "a face in the road all the time", "a path that comes down to it"
-            )
+            where = f"case {case.case_id}: path"
+            raise InputError(where, "a face in the road all the time", "a path that comes down to it")
         lead *= 2.0
-    known = face.operators.count
-    record = run_course(moves, scene, face.operators)
-    if face.operators.count > known:
-        face.remember()
-    return FacePass(face.body, time, *record)
 
 
 def scene_of(
@@ -171,13 +199,10 @@ def scene_of(
     return face, Scene(face.operators.nodes, solid, RoadMotion(path.road.radius, 0.0), law, solver, second), division
 
 
-def run_course(moves: Course, scene: Scene, parts: FaceOperators) -> Record:
-    """Run a block along a course and return the record."""
+def run_course(moves: Course, scene: Scene, parts: FaceOperators, nodal: bool = True) -> Record:
+    """Run a block along a course and return the record; `nodal`: with what each node does."""
     steps, n, terms = moves.time.size, scene.face.area.size, scene.solid.moduli.size
-    record = Record(
-        np.zeros((steps, n, 3)), np.zeros((steps, n, 3)), np.zeros((steps, n), dtype=np.int64),
-        np.zeros(steps, dtype=np.int64),
-    )  # fmt: skip
+    record = record_of(steps, n, nodal)
     state, work = fresh_state(n, terms), scratch(n, terms, scene.second)
     start(pose_at(moves, 0), scene, state, work)
     at = 1

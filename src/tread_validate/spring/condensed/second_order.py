@@ -17,39 +17,52 @@ where strain and stress grow together.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...kernels import kernel
-from .inputs import FaceState, Pose, Scratch, SecondOrder, Singles
+from .inputs import STICK, FaceState, Pose, Scene, Scratch, SecondOrder, Singles
 from .products import combine
+from .touch import turn_of
 
 LARGEST = 0.5
 """Norm of H beyond which P2 grows no more: there a second order says nothing."""
 FARTHEST = 2.0
-"""v is extrapolated over at most so many times the step before."""
+"""The motion of a free node is extrapolated over at most so many times the step before."""
 
 
 @kernel()
-def shifted(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scratch) -> Pose:
-    """Return the pose with the unloaded face moved to where it will be after `dt`."""
+def shifted(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratch) -> Pose:
+    """Return the pose with the unloaded face moved to where it will be after `dt`.
+
+    Where a node will be is known before the step is solved: one that sticks moves with the road, a free one goes on
+    as it did.
+    """
+    second, road = scene.second, scene.road
     if second.near.shape[0] == 0:
         return pose
+    cosine, sine = math.cos(pose.angle), math.sin(pose.angle)
+    travel, turned, across = turn_of(road, dt)
+    flat = math.isinf(road.radius)
     ahead = min(dt, FARTHEST * state.pace[0])
     for i in range(state.shift.shape[0]):
-        for c in range(3):
-            work.unloaded[i, c] = pose.unloaded[i, c] + state.shift[i, c] + ahead * state.flow[i, c]
-    return Pose(pose.x, pose.y, pose.angle, work.unloaded, pose.bend, pose.rise)
-
-
-@kernel()
-def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scratch) -> None:
-    """Find the shift of the unloaded face that goes with the displacements after a step of `dt` to a moved `pose`."""
-    if second.near.shape[0] == 0:
-        return
-    for i in range(state.w.shape[0]):
-        for c in range(3):
-            work.moved[c, i] = pose.unloaded[i, c] + state.w[i, c] - second.free[i, c]
-    _strain(pose, second, state, work)
+        if state.code[i] == STICK:
+            x, y = state.place[i, 0], state.place[i, 1]
+            if flat:
+                x += travel
+            else:
+                up = y + road.radius
+                x, y = x * turned + up * across, up * turned - x * across - road.radius
+            gx, gy = x - pose.x, y - pose.y
+            work.moved[0, i] = cosine * gx + sine * gy - second.free[i, 0]
+            work.moved[1, i] = cosine * gy - sine * gx - second.free[i, 1]
+            work.moved[2, i] = state.place[i, 2] - second.free[i, 2]
+        else:
+            for c in range(3):
+                going = state.w[i, c] + state.shift[i, c] + ahead * (state.rate[i, c] + state.flow[i, c])
+                work.moved[c, i] = pose.unloaded[i, c] + going - second.free[i, c]
+    _strain(pose, second, work)
     _stress(second, work.gradient)
     work.gradient[:] *= np.float32(second.spread_unit)
     combine(second.spread, work.gradient, work.coarse)
@@ -58,24 +71,37 @@ def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work
             moved = 0.0
             for k in range(4):
                 moved += second.share[i, k] * work.coarse[3 * second.near[i, k] + c]
-            state.flow[i, c] = (moved - state.shift[i, c]) / dt
-            state.shift[i, c] = moved
+            work.unloaded[i, c] = pose.unloaded[i, c] + moved
+    return Pose(pose.x, pose.y, pose.angle, work.unloaded, pose.bend, pose.rise)
+
+
+@kernel()
+def follow_up(pose: Pose, second: SecondOrder, state: FaceState, dt: float, work: Scratch) -> None:
+    """Remember the shift that `shifted` found for a `pose`."""
+    if second.near.shape[0] == 0:
+        return
+    for i in range(state.shift.shape[0]):
+        for c in range(3):
+            shift = work.unloaded[i, c] - pose.unloaded[i, c]
+            state.flow[i, c] = (shift - state.shift[i, c]) / dt
+            state.shift[i, c] = shift
     state.pace[0] = dt
 
 
 @kernel()
-def rest(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) -> Pose:
+def rest(pose: Pose, scene: Scene, state: FaceState, work: Scratch) -> Pose:
     """Return the pose with the face of the block as the mount bends it, free of force."""
-    if second.near.shape[0] == 0:
+    if scene.second.near.shape[0] == 0:
         return pose
     for _ in range(3):
-        follow_up(shifted(pose, second, state, 0.0, work), second, state, 1.0, work)
+        shifted(pose, scene, state, 0.0, work)
+        follow_up(pose, scene.second, state, 1.0, work)
     state.flow[:], state.pace[0] = 0.0, 0.0
-    return shifted(pose, second, state, 0.0, work)
+    return Pose(pose.x, pose.y, pose.angle, work.unloaded, pose.bend, pose.rise)
 
 
 @kernel()
-def _strain(pose: Pose, second: SecondOrder, state: FaceState, work: Scratch) -> None:
+def _strain(pose: Pose, second: SecondOrder, work: Scratch) -> None:
     """Write the displacement gradients of the elements to `work.gradient`."""
     for c in range(3):
         combine(second.gather, work.moved[c], work.third)

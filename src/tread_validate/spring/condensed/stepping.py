@@ -12,7 +12,6 @@ from ...geometry import path_of
 from ...study import Case
 from .inputs import FaceState, Pose, fresh_state, scratch
 from .march import start, take_step
-from .polygon import Polygon
 from .roll import CondensedSettings, scene_of
 
 Array = NDArray[np.float64]
@@ -29,7 +28,7 @@ class FaceBlock:
         self._nodes, self._terms = self._face.body.area.size, self._scene.solid.moduli.size
         self._copies = 2.0 if self._face.body.half else 1.0
         self._work = scratch(self._nodes, self._terms, self._scene.second)
-        self._polygon = Polygon(self._face.body)
+        self._polygon = self._face.polygon
         self._state: FaceState | None = None
         self.mount_points = self._face.body.knots
 

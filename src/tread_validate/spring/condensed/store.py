@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ from .kept import Arrays, keep, kept, load
 from .mesh_body import MeshFile, body_of_mesh, hexahedra
 from .mesh_condense import condense_mesh, mesh_ratios, mesh_second_order
 from .operators import FaceOperators, inverse
+from .polygon import Polygon
 from .stuck import stuck_ratios_of
 
 Array = NDArray[np.float64]
@@ -62,6 +63,11 @@ class ReadyFace:
     bend: Singles
     operators: FaceOperators
     key: str
+
+    @cached_property
+    def polygon(self) -> Polygon:
+        """How far the face's elements lie inside it."""
+        return Polygon(self.body)
 
     def remember(self) -> None:
         """Keep the window operators made so far for the next process."""
