@@ -19,7 +19,7 @@ from .regression.line import REFERENCE_TEMPERATURE
 from .runs import Runs
 from .tables import AssumedRow
 
-PACKAGES = ("numpy", "scipy", "numba", "pandas", "pydantic", "statsmodels", "objective-rating-metrics", "frictionless")
+PACKAGES = ("numpy", "scipy", "numba", "pandas", "pydantic", "objective-rating-metrics", "frictionless")
 
 
 def provenance(

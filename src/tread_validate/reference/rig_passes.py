@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfiltfilt
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from ..errors import InputError
 from ..units import RPM
@@ -93,7 +92,7 @@ class RigPasses:
         `calibration` is the cell's own 95 % half-width, relative. The noise counts once, as a peak picked from noise
         lies too high by up to about its deviation.
         """
-        scatter = float(student.ppf(0.975, self.count - 1)) * spread.deviation / np.sqrt(self.count)
+        scatter = float(stdtrit(self.count - 1, 0.975)) * spread.deviation / np.sqrt(self.count)
         return float(np.sqrt(scatter**2 + self.noise**2 + (calibration * spread.mean) ** 2))
 
     @property
@@ -112,6 +111,8 @@ def low_pass(signal: Array, sampling_rate: float, cutoff: float, order: int = OR
 
     Both ways together the power is halved (-3 dB) at `cutoff` in Hz; the single filter's corner is moved up for that.
     """
+    from scipy.signal import butter, sosfiltfilt  # late: takes half a second
+
     bent = np.tan(np.pi * cutoff / sampling_rate) / (np.sqrt(2.0) - 1.0) ** (1.0 / (2 * order))
     corner = sampling_rate * np.arctan(bent) / np.pi  # the digital filter bends the frequency axis
     sections = butter(order, corner, fs=sampling_rate, output="sos")

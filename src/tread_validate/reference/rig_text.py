@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from ..errors import InputError, one_line
@@ -121,6 +120,8 @@ def _encoding(path: Path, data: bytes) -> str:
 
 
 def _numbers(path: Path, layout: _Layout, places: Mapping[str, int]) -> dict[int, Array]:
+    import pandas as pd  # late: most runs read no record
+
     wanted = sorted(set(places.values()))
     try:
         frame = pd.read_csv(

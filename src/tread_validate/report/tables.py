@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-
-import pandas as pd
 
 from ..compare.tables import (
     AssumedRow,
@@ -119,4 +118,4 @@ def number(value: object) -> float | None:
     if not isinstance(value, int | float) and not hasattr(value, "__float__"):
         return None
     result = float(value)
-    return None if pd.isna(result) else result
+    return None if math.isnan(result) else result

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy import stats
+from scipy.special import stdtr, stdtrit
 
 from ..tables import Coefficient, Difference
 from .line import LEVEL
@@ -44,14 +44,15 @@ def corrected(rows: Sequence[Difference], level: float = LEVEL) -> tuple[Differe
     Holm, Scand. J. Stat. 6 (1979) 65-70: at a level of 5 % one family in twenty has any false difference in it, however
     many tests it holds; uncorrected, one test in twenty has.
     """
-    from statsmodels.stats.multitest import multipletests
-
     out = list(rows)
     for family in dict.fromkeys(row.family for row in rows):
         own = [i for i, row in enumerate(rows) if row.family == family and row.p_value is not None]
         if not own:
             continue
-        _, p_holm, _, _ = multipletests([rows[i].p_value for i in own], alpha=1.0 - level, method="holm")
+        own.sort(key=lambda i: rows[i].p_value or 0.0)
+        # step-down: the least of m p values times m, the next times m - 1, ...; none below the one before it
+        times = np.arange(len(own), 0, -1)
+        p_holm = np.minimum(np.maximum.accumulate(times * [rows[i].p_value or 0.0 for i in own]), 1.0)
         for i, p in zip(own, p_holm, strict=True):
             out[i] = replace(rows[i], p_holm=float(p), tests=len(own), significant=bool(p < 1.0 - level))
     return tuple(out)
@@ -99,8 +100,8 @@ def _compare(
         error, test = math.sqrt(va + vb), "Welch t"
     if error <= RESOLUTION * max(abs(a.value), abs(b.value)):
         return replace(blank, test=test, note="no scatter between the sets")
-    half = float(stats.t.ppf(0.5 + 0.5 * level, freedom)) * error
-    p = float(2.0 * stats.t.sf(abs(difference) / error, freedom))
+    half = float(stdtrit(freedom, 0.5 + 0.5 * level)) * error
+    p = float(2.0 * stdtr(freedom, -abs(difference) / error))
     return replace(
         blank, ci_low=difference - half, ci_high=difference + half, p_value=p, test=test,
         status="current",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import stdtrit
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def fieller(
     a: float, b: float, var_a: float, var_b: float, cov_ab: float, freedom: int, level: float
 ) -> tuple[float, float]:
     """Return the confidence interval of a/b, or (-inf, inf) where b is not distinguishable from zero."""
-    t2 = float(stats.t.ppf(0.5 + 0.5 * level, freedom)) ** 2
+    t2 = float(stdtrit(freedom, 0.5 + 0.5 * level)) ** 2
     qa = b * b - t2 * var_b
     qb = a * b - t2 * cov_ab
     qc = a * a - t2 * var_a

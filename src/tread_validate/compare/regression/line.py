@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import stdtrit
 
 from ...errors import InputError
 from ..tables import Coefficient, Residual
@@ -42,19 +42,19 @@ def fit_line(x: NDArray[np.float64], force: NDArray[np.float64], level: float = 
     covariance of the least-squares coefficients with n - 2 degrees of freedom. Raises `InputError` for fewer than
     two different x and for an intercept of zero.
     """
-    from statsmodels.regression.linear_model import OLS
-
     if np.unique(x).size < 2:
         raise InputError("regression", f"{np.unique(x).size} level(s)", "at least two different levels")
-    result = OLS(force, np.column_stack([np.ones_like(x), x])).fit()
-    intercept, slope = (float(value) for value in result.params)
+    design = np.column_stack([np.ones_like(x), x])
+    inverse = np.linalg.pinv(design)  # by singular values
+    found = inverse @ force
+    intercept, slope = (float(value) for value in found)
     if intercept == 0.0:
         raise InputError("regression", "intercept 0", "a force at x = 0 to be relative to")
-    freedom = int(result.df_resid)
-    fitted = np.asarray(result.fittedvalues, dtype=np.float64)
+    freedom = force.size - 2
+    fitted = np.asarray(design @ found, dtype=np.float64)
     if freedom < 1:
         return Fit(slope / intercept, -math.inf, math.inf, fitted)
-    covariance = np.asarray(result.cov_params(), dtype=np.float64)
+    covariance = inverse @ inverse.T * float(np.sum((force - fitted) ** 2)) / freedom
     low, high = fieller(slope, intercept, covariance[1, 1], covariance[0, 0], covariance[0, 1], freedom, level)
     return Fit(slope / intercept, low, high, fitted)
 
@@ -63,7 +63,7 @@ def mean_interval(mean: float, sd: float, n: int, level: float = LEVEL) -> tuple
     """Return the confidence interval of the mean of n values with sample standard deviation `sd` (Student)."""
     if n < 2:
         return -math.inf, math.inf
-    half = float(stats.t.ppf(0.5 + 0.5 * level, n - 1)) * sd / math.sqrt(n)
+    half = float(stdtrit(n - 1, 0.5 + 0.5 * level)) * sd / math.sqrt(n)
     return mean - half, mean + half
 
 

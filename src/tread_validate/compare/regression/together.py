@@ -11,8 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 from scipy.optimize import least_squares
+from scipy.special import stdtrit
 
 from ...errors import InputError
 from .fit import Fit, Peak
@@ -72,5 +72,5 @@ def fit_together(members: Sequence[Peak], zero: float, level: float) -> Fit:
     jacobian = found.jac * scale
     inverse = np.linalg.inv(jacobian.T @ jacobian)
     variance = float(np.sum((fitted - force) ** 2)) / freedom * inverse[1, 1] * scale[1] ** 2
-    half = float(stats.t.ppf(0.5 + 0.5 * level, freedom)) * math.sqrt(variance)
+    half = float(stdtrit(freedom, 0.5 + 0.5 * level)) * math.sqrt(variance)
     return Fit(float(found.x[1]), float(found.x[1]) - half, float(found.x[1]) + half, fitted)
