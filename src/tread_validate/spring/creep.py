@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cache
 
 from ..errors import InputError
@@ -16,6 +16,10 @@ FIRST_TRIAL = 2e-3
 BEYOND = 1.1
 """Part of the way to the secant's root that a step goes."""
 TOLERANCE = 2e-8
+CLOSING = 0.1
+"""Step over the one before it that shows that the trials close in."""
+MOST_TRIALS = 6
+"""Trials by interpolation before Brent's method takes over."""
 DIGITS = 5
 """Decimal places of a creep ratio that decks and spring runs share."""
 
@@ -29,13 +33,12 @@ def free_rolling_creep(case: Case, variant: str = "paper", bracket: tuple[float,
 
 
 def root_of(block_pass: Pass, case_id: str, bracket: tuple[float, float] = BRACKET) -> float:
-    """Return the root for a pass that is ready to run: bracketing by growing steps from 0, then Brent's method.
+    """Return the root for a pass that is ready to run, as sharp as the pass (`creep_tolerance`, 2e-8 without).
 
-    Steps double, or end a little beyond the secant's root where that is nearer: the impulse of a face that mostly
-    sticks is nearly linear. The root is as sharp as the pass (`creep_tolerance`, 2e-8 without).
+    The impulse of a face that mostly sticks is nearly linear: steps from 0 double, or end a little beyond the
+    secant's root where that is nearer, until the sign changes or the secant's root is as near as the tolerance.
+    Within a bracket: inverse interpolation through the last three trials, and Brent's method where that fails.
     """
-    from scipy.optimize import brentq
-
     impulse = cache(block_pass.net_shear_impulse)
     low, high = bracket
     start = min(max(0.0, low), high)
@@ -44,14 +47,15 @@ def root_of(block_pass: Pass, case_id: str, bracket: tuple[float, float] = BRACK
         return start
     # a faster road drags the block along: the impulse along lambda grows with the creep ratio
     way = 1.0 if at_start < 0.0 else -1.0
-    near, step = start, FIRST_TRIAL
-    at_near = at_start
+    trials, step = [(start, at_start)], FIRST_TRIAL
     tolerance = getattr(block_pass, "creep_tolerance", TOLERANCE)
     while True:
+        near, at_near = trials[-1]
         far = min(max(near + way * step, low), high)
         at_far = impulse(far)
+        trials.append((far, at_far))
         if at_far * at_start <= 0.0:
-            return float(brentq(impulse, near, far, xtol=tolerance, rtol=1e-10))
+            return _within(impulse, trials, tolerance)
         if far in (low, high):
             raise InputError(
                 f"case {case_id}: creep_percent",
@@ -60,7 +64,46 @@ def root_of(block_pass: Pass, case_id: str, bracket: tuple[float, float] = BRACK
             )
         fall = abs(at_near) - abs(at_far)
         secant = BEYOND * abs(at_far) / fall * step if fall > 0.0 else 2.0 * step
-        near, at_near, step = far, at_far, min(2.0 * step, max(secant, 0.1 * step))
+        step = min(2.0 * step, max(secant, 0.1 * step))
+
+
+def _within(impulse: Callable[[float], float], trials: list[tuple[float, float]], tolerance: float) -> float:
+    """Return the root between the last two of the trials, whose impulses differ in sign.
+
+    Where trials close in, the one whose next would be nearer than the tolerance is the last: that next one is the root.
+    """
+    from scipy.optimize import brentq
+
+    (a, at_a), (b, at_b) = trials[-2:]
+    for _ in range(MOST_TRIALS):
+        if at_b == 0.0:
+            return b
+        root = _interpolated(trials[-3:])
+        if not min(a, b) < root < max(a, b):
+            root = (a * at_b - b * at_a) / (at_b - at_a)
+        (before, _), (last, _) = trials[-2:]
+        if len(trials) > 2 and abs(root - last) <= min(tolerance, CLOSING * abs(last - before)):
+            return root
+        at_root = impulse(root)
+        trials.append((root, at_root))
+        if at_root * at_b <= 0.0:
+            a, at_a = b, at_b
+        b, at_b = root, at_root
+    return float(brentq(impulse, a, b, xtol=tolerance, rtol=1e-10))
+
+
+def _interpolated(trials: list[tuple[float, float]]) -> float:
+    """Return the creep ratio at impulse 0 of the polynomial through the trials (Lagrange); nan where two are alike."""
+    if len({impulse for _, impulse in trials}) < len(trials):
+        return float("nan")
+    root = 0.0
+    for creep, impulse in trials:
+        weight = 1.0
+        for _, other in trials:
+            if other != impulse:
+                weight *= other / (other - impulse)
+        root += weight * creep
+    return root
 
 
 def resolve_creep(cases: Iterable[Case], variant: str = "paper") -> tuple[Case, ...]:
