@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
-from .deck import LARGEST_LABEL, KeywordBlock, label
+from .deck import LARGEST_LABEL, KeywordBlock, Lines, label
 from .nesting import STRUCTURE, Report, nested
 from .placement import can_move, instance_motion, still
 from .qualify import (
@@ -140,11 +140,13 @@ class _Resolver:
         name = own.name
         named = at.parameters.get("PART")
         if named is None:
+            self.names.add(name)
             found = "an instance imported from another analysis" if "INSTANCE" in at.parameters else "no PART="
             self._tell("import", at, found, "PART=name of a part of this deck")
             return
         if not name or name in self.names:
             self._tell("duplicate-name", at, f"instance {name} twice" if name else "no NAME", "each instance once")
+            return
         self.names.add(name)
         part = self.parts.get(named)
         if part is None:
@@ -168,7 +170,9 @@ class _Resolver:
         for block in placed_nodes(blocks, motion, first):
             fixed = block.keyword == "SURFACE" and is_analytical(block) and not can_move(block)
             if (fixed and not motion.is_identity) or (block.keyword in UNPLACED and (first or not motion.is_identity)):
-                self._tell("not-placed", block, f"in instance {name}, moved or renumbered", "an instance as it stands")
+                bare = fixed and block.parameters.get("TYPE") == "REVOLUTION"
+                found = "TYPE=REVOLUTION without its axis" if bare else f"in instance {name}, moved or renumbered"
+                self._tell("not-placed", block, found, "an instance as it stands")
             self.flat.append(qualified(block, scope, motion))
 
     def _of_assembly(self, block: KeywordBlock) -> KeywordBlock:
@@ -177,8 +181,10 @@ class _Resolver:
         if block.keyword in ("NSET", "ELSET") and instance is not None:
             first = next((base for base, name in self.instances if name == instance), None)
             if first is None:
-                self._tell("dangling-instance", block, f"instance {instance}", "an *INSTANCE of the assembly")
-                return block
+                if instance not in self.names:  # else its own fault is told already
+                    self._tell("dangling-instance", block, f"instance {instance}", "an *INSTANCE of the assembly")
+                parameters = {name: value for name, value in block.parameters.items() if name in ("NSET", "ELSET")}
+                return KeywordBlock(block.keyword, parameters, Lines(block.file), block.file, block.line, block.raw)
             prefix = Scope(instance, first, frozenset(self._names_of(instance)))
             block = qualified(block, prefix, still(), define=False)
             parameters = {name: value for name, value in block.parameters.items() if name != "INSTANCE"}

@@ -32,6 +32,7 @@ class _Nesting:
         self.report = report
         self.open: list[tuple[KeywordBlock, int]] = []
         self.out: list[KeywordBlock] = []
+        self.meshed: set[str] = set()
 
     def run(self) -> list[KeywordBlock]:
         for position, block in enumerate(self.written):
@@ -47,6 +48,8 @@ class _Nesting:
                 continue
             if self.open:
                 self._leave_for(block, position)
+            if block.keyword == "NODE" and self.open and self.open[-1][0].keyword == "PART":
+                self.meshed.add(self.open[-1][0].parameters.get("NAME") or "")
             self.out.append(block)
         while self.open:
             self._close(None, len(self.written))
@@ -76,7 +79,13 @@ class _Nesting:
     def _leave_for(self, block: KeywordBlock, position: int) -> None:
         """Close what cannot hold `block`, unless its end does come."""
         model = block.keyword in MODEL_LEVEL
-        if not model and not (block.keyword in ("NSET", "ELSET") and "INSTANCE" in block.parameters):
+        inner = self.open[-1][0]
+        second = (
+            block.keyword == "NODE"
+            and inner.keyword == "INSTANCE"
+            and (inner.parameters.get("PART") or "") in self.meshed  # its nodes are those of the part
+        )
+        if not (model or second or (block.keyword in ("NSET", "ELSET") and "INSTANCE" in block.parameters)):
             return
         for keywords in (("PART", "INSTANCE"), ("ASSEMBLY",) if model else ()):
             if self.open and self.open[-1][0].keyword in keywords and not self._ends(position):

@@ -16,7 +16,7 @@ from .mesh_rules import check_mesh
 from .motion_rules import check_motion, check_steps
 from .names import collect, unique
 from .output import FORMATS, formatted
-from .syntax import check_syntax
+from .syntax import check_syntax, repaired
 
 __all__ = ["FORMATS", "Dialect", "Finding", "LintRule", "catalogue", "find_rule", "formatted", "lint"]
 
@@ -47,6 +47,7 @@ def lint(
     """
     chosen, left = _rules(select), _rules(ignore)
     findings = Findings()
+    instances: list[str] = []
     mild = "warning" if dialect == "calculix" else None  # it passes over lines before the first keyword
 
     def report(rule: str, where: str, found: object, expected: str) -> None:
@@ -62,7 +63,9 @@ def lint(
         findings[:] = [one for one in findings if one.rule != "syntax"]  # what stopped the reader says it all
         findings.append(Finding(located[1], int(located[2]), "syntax", message))
     else:
+        instances = [name for _, name in deck.instances]
         check_syntax(deck, findings, dialect)
+        deck = repaired(deck, dialect)
         names = collect(deck, findings, dialect)
         check_mesh(deck, names, findings)
         if dialect == "abaqus":
@@ -73,7 +76,7 @@ def lint(
     if dialect == "calculix":
         findings[:] = [replace(one, severity="warning") if one.rule in LENIENT else one for one in findings]
     kept = [one for one in findings if (not chosen or one.rule in chosen) and one.rule not in left]
-    return unique(kept)
+    return unique(kept, instances)
 
 
 def _rules(words: Sequence[str]) -> set[str]:

@@ -31,7 +31,8 @@ def check_contact(deck: Deck, names: Names, findings: Findings) -> None:
             _check_profile(block, kind, findings)
     analytical = {name for name, block in names.named["SURFACE"].items() if block.parameters.get("TYPE") in ANALYTICAL}
     held = {block.parameters.get("ANALYTICAL SURFACE") or "" for block in deck.named("RIGID BODY")}
-    for name in sorted(analytical - held if not names.gaps else ()):
+    lost = any(name and not names.has("SURFACE", name) for name in held)  # a body whose surface is misspelt
+    for name in sorted(analytical - held if not names.gaps and not lost else ()):
         findings.add(names.named["SURFACE"][name], "loose-surface", f"analytical surface {name} is in no *RIGID BODY")
     for block in deck.named("CONTACT PAIR"):
         _check_pair(block, names, analytical, findings)

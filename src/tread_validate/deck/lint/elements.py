@@ -58,6 +58,8 @@ def is_known(kind: str) -> bool:
     """Whether a type is one that the lint knows the form of."""
     if kind in FIXED or kind in EXAMPLES or OPEN.fullmatch(kind):
         return True
+    if re.search(r"([A-Z])\1$", kind):  # no type's name ends with one letter twice
+        return False
     if kind.startswith("C3D"):
         return SOLID.fullmatch(kind) is not None
     return COUNTED.fullmatch(kind) is not None or node_count(kind) is not None

@@ -123,7 +123,8 @@ def _check_prony(block: KeywordBlock, findings: Findings) -> None:
         shear, bulk = shear + g, bulk + k
     if len(block.data) and (shear >= 1.0 or bulk >= 1.0):
         ratio = max(shear, bulk)
-        findings.add(block, "prony", f"Prony ratios add up to {ratio:.6g}: expected less than 1, or nothing is left")
+        where = block.data[0] if len(block.data) == 1 else block
+        findings.add(where, "prony", f"Prony ratios add up to {ratio:.6g}: expected less than 1, or nothing is left")
 
 
 def _check_moduli(options: dict[str, KeywordBlock], findings: Findings) -> None:

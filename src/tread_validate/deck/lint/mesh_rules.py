@@ -48,12 +48,13 @@ def _check_element_nodes(names: Names, findings: Findings) -> None:
         missing = sorted_ids[place] != part.nodes
         if part.nodes.shape[1] > 8 or not kinds.needs_section(part.kind):
             missing &= part.nodes != 0  # a midside node or a second end may be left out as 0
-        bad = np.flatnonzero(missing.any(axis=1))
         if not names.open_mesh:
-            for row, more in _first(bad, "elements"):
-                node = int(part.nodes[row][missing[row]][0])
-                text = f"element {names.shown(part.ids[row])}: there is no node {names.shown(node)}{more}"
-                findings.add(part.line(row), "undefined-node", text)
+            absent = np.unique(part.nodes[missing])
+            for node in absent[:MOST].tolist():
+                rows = np.flatnonzero((missing & (part.nodes == node)).any(axis=1))
+                more = f" (nor for {rows.size - 1} more elements)" if rows.size > 1 else ""
+                text = f"element {names.shown(part.ids[rows[0]])}: there is no node {names.shown(node)}{more}"
+                findings.add(part.line(int(rows[0])), "undefined-node", text)
         _check_volumes(part, names, findings, names.coordinates[order], place, np.flatnonzero(~missing.any(axis=1)))
 
 
@@ -112,6 +113,7 @@ def _jacobians(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArr
 def check_sections(deck: Deck, names: Names, findings: Findings) -> set[str]:
     """Check sections against elements and materials; return the materials that deformable elements use."""
     used: set[str] = set()
+    lost = False  # a section whose elements are not known: none is called bare
     covered: list[NDArray[np.int64]] = []
     owner: dict[str, tuple[KeywordBlock, NDArray[np.int64]]] = {}
     bodies = [block.parameters.get("ELSET") or "" for block in deck.named("RIGID BODY")]
@@ -129,6 +131,7 @@ def check_sections(deck: Deck, names: Names, findings: Findings) -> set[str]:
             continue
         if not names.has_elset(elset):
             if block.keyword in SECTION_KEYWORDS:
+                lost = True
                 findings.add(block, "dangling-elset", f"*{block.keyword}: there is no element set {elset}")
             continue
         ids = names.elsets.get(elset, np.zeros(0, dtype=np.int64))
@@ -144,9 +147,9 @@ def check_sections(deck: Deck, names: Names, findings: Findings) -> set[str]:
                     findings.add(block, "two-sections", text)
                     break
             owner[elset] = (block, ids)
-    _check_bare(
-        names, sorted_labels(np.concatenate(covered)) if covered else np.zeros(0, dtype=np.int64), stiff, findings
-    )
+    if not lost:
+        all_covered = sorted_labels(np.concatenate(covered)) if covered else np.zeros(0, dtype=np.int64)
+        _check_bare(names, all_covered, stiff, findings)
     return used
 
 

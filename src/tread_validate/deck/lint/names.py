@@ -53,6 +53,7 @@ class Names:
     mechanical: bool = False
     open_mesh: bool = False
     swallowed: bool = False
+    unresolved: frozenset[str] = frozenset()
 
     @property
     def gaps(self) -> bool:
@@ -69,27 +70,34 @@ class Names:
         """Element labels of each set."""
         return self.sets.tables["element"]
 
+    def lost(self, name: str) -> bool:
+        """Whether a name belongs to an instance that does not resolve, which is told at the instance."""
+        instance, point, _ = label(name).rpartition(".")
+        return bool(point) and instance in self.unresolved
+
     def has(self, kind: str, name: str) -> bool:
         """Whether `kind` (``MATERIAL``, ``SURFACE``, ...) has something called `name`."""
-        return self.gaps or label(name) in self.named.get(kind, {}) or name in self.named.get(kind, {})
+        return (
+            self.gaps or self.lost(name) or label(name) in self.named.get(kind, {}) or name in self.named.get(kind, {})
+        )
 
     def nodes_of(self, text: str) -> IntArray | None:
         """Return the node ids of a node number or node set; None where there is no such."""
         found = self.sets.find("node", text)
-        return NO_IDS if found is None and self.gaps else found
+        return NO_IDS if found is None and (self.gaps or self.lost(text)) else found
 
     def elements_of(self, text: str) -> IntArray | None:
         """Return the element ids of an element number or element set; None where there is no such."""
         found = self.sets.find("element", text)
-        return NO_IDS if found is None and self.gaps else found
+        return NO_IDS if found is None and (self.gaps or self.lost(text)) else found
 
     def has_nset(self, name: str) -> bool:
         """Whether there is a node set of this name (or might be)."""
-        return self.gaps or label(name) in self.nsets or name in self.nsets
+        return self.gaps or self.lost(name) or label(name) in self.nsets or name in self.nsets
 
     def has_elset(self, name: str) -> bool:
         """Whether there is an element set of this name (or might be)."""
-        return self.gaps or label(name) in self.elsets or name in self.elsets
+        return self.gaps or self.lost(name) or label(name) in self.elsets or name in self.elsets
 
     def shown(self, number: int) -> str:
         """Return a label as it is written in its part."""
@@ -100,8 +108,11 @@ def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
     """Collect the definitions; faults in the definitions themselves are reported on the way."""
     words = {block.keyword for block in deck.blocks}
     explicit = any("EXPLICIT" in block.parameters for block in deck.named("DYNAMIC"))
+    placed = {name for _, name in deck.instances}
+    declared = {block.parameters.get("NAME") or "" for block in deck.written if block.keyword == "INSTANCE"}
     names = Names(
         deck,
+        unresolved=frozenset(declared - placed),
         explicit=(explicit or "DYNAMIC TEMPERATURE-DISPLACEMENT" in words) and dialect == "abaqus",
         swallowed=any(one.rule == "structure" and UNENDED.search(one.message) for one in findings),
         mechanical=bool(words & {"DYNAMIC", "STATIC", "VISCO"}),
@@ -166,10 +177,13 @@ def _first_labels(lines: Iterable[DataLine]) -> IntArray:
     return np.array(list(map(int, found)), dtype=np.int64)
 
 
-def unique(findings: Iterable[Finding]) -> list[Finding]:
-    """Return the findings in order; what holds alike for each instance of a part is said once."""
+def unique(findings: Iterable[Finding], instances: Iterable[str] = ()) -> list[Finding]:
+    """Return the findings in order; what holds alike for each of the part's `instances` is said once."""
+    prefix = re.compile(
+        "|".join(sorted((re.escape(name) + r"\." for name in instances if name), key=len, reverse=True))
+    )
     seen: dict[tuple[str, int, str, str], Finding] = {}
     for finding in findings:
-        bare = "".join(letter for letter in finding.message if not letter.isdigit())
+        bare = "".join(letter for letter in prefix.sub("", finding.message) if not letter.isdigit())
         seen.setdefault((finding.file, finding.line, finding.rule, bare), finding)
     return sorted(seen.values())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 
 from ...inp import DataLine, Deck, KeywordBlock, Lines
 from ...inp.deck import to_float
@@ -39,7 +40,8 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
     steps = 0
     opened: KeywordBlock | None = None
     for position, block in enumerate(deck.written):
-        if block.keyword == "STEP":
+        keyword = block.keyword if block.keyword in vocabulary else _meant(block.keyword, dialect) or block.keyword
+        if keyword == "STEP":
             if inside:
                 findings.add(block, "step-order", "a *STEP inside a step: *END STEP is missing before it")
             inside, opened = True, block
@@ -53,7 +55,7 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
             _check_block(deck.written, position, known, vocabulary, own)
             findings += own if dialect == "abaqus" else map(_of_other_dialect, own)
         _check_letters(block, findings)
-        if block.keyword == "END STEP":
+        if keyword == "END STEP":
             if not inside:
                 findings.add(block, "step-order", "*END STEP without a *STEP")
             inside = False
@@ -64,13 +66,37 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
         findings.add(deck.written[-1], "no-step", "the deck has no *STEP")
 
 
+def repaired(deck: Deck, dialect: str = "abaqus") -> Deck:
+    """Return the deck with misspelt keywords (told by `check_syntax`) as they are meant, so that nothing follows."""
+    vocabulary = keywords(dialect)
+    blocks = [(block, None if block.keyword in vocabulary else _meant(block.keyword, dialect)) for block in deck.blocks]
+    if all(near is None for _, near in blocks):
+        return deck
+    return replace(
+        deck, blocks=tuple(block if near is None else replace(block, keyword=near) for block, near in blocks)
+    )
+
+
+@cache
+def _meant(word: str, dialect: str) -> str | None:
+    """Return the keyword that an unknown one is a letter or two from."""
+    vocabulary = keywords(dialect)
+    if dialect == "calculix" and _begins_with_keyword(word, vocabulary):
+        return None
+    return misspelt(word, vocabulary)
+
+
+def _begins_with_keyword(word: str, vocabulary: Mapping[str, KeywordEntry]) -> bool:
+    """Whether CalculiX, which compares first letters, takes a longer word for a keyword (or one of its own)."""
+    squeezed = word.replace(" ", "")
+    return any(squeezed.startswith(name.replace(" ", "")) for name in vocabulary)
+
+
 def _unknown(block: KeywordBlock, vocabulary: Mapping[str, KeywordEntry], findings: Findings, dialect: str) -> None:
-    squeezed = block.keyword.replace(" ", "")
-    if dialect == "calculix" and any(squeezed.startswith(name.replace(" ", "")) for name in vocabulary):
-        # CalculiX compares first letters: a longer word is its keyword, or one of its own (*BOUNDARYF)
+    if dialect == "calculix" and _begins_with_keyword(block.keyword, vocabulary):
         findings.add(block, "not-checked", f"*{block.keyword} begins with a keyword: not checked")
         return
-    near = misspelt(block.keyword, vocabulary)
+    near = _meant(block.keyword, dialect)
     if near is not None:
         findings.add(block, "unknown-keyword", f"*{block.keyword} is no keyword; did you mean *{near}?")
     elif dialect == "abaqus" and block.keyword in keywords("calculix"):
