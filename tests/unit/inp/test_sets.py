@@ -36,7 +36,7 @@ def test_members_are_labels_and_sets_defined_before(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(first=st.integers(1, 20), count=st.integers(0, 6), step=st.integers(1, 5))
 def test_generate_is_the_arithmetic_series(first: int, count: int, step: int, tmp_path: Path) -> None:
     last = first + count * step
