@@ -102,7 +102,7 @@ def draw(rigid, soft, target):
     from matplotlib import pyplot
 
     figure, (top, middle, below) = pyplot.subplots(3, 1, sharex=True, figsize=(7, 7), layout="constrained")
-    for axes, name, label in ((top, "normal", "normal force, N"), (middle, "tangential", "tangential force, N")):
+    for axes, name, label in ((top, "normal", "normal force, N"), (middle, "tangential", "longitudinal force, N")):
         for found, text in ((rigid, "rigid belt"), (soft, "belt on springs")):
             axes.plot(1e3 * found["time"], found[name], label=text)
         axes.set_ylabel(label)

@@ -1,4 +1,4 @@
-"""`tread-validate fe`: run a deck in the embedded explicit engine."""
+"""`tread-validate fe`: run a deck in the built-in explicit FE engine."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def command(
     ] = 300.0,
     time_limit: Annotated[float, number("--time-limit", "time_limit_s", "longest time of the run, s")] = 86_400.0,
 ) -> None:
-    """Run a deck in the embedded explicit engine and write the history of its last step.
+    """Run a deck in the built-in explicit FE engine and write the history of its last step.
 
     Example: tread-validate fe fe_inputs/ID/ID.inp --user fe_inputs/ID/vfric.f -o results/fe/embedded/ID.csv
     """
@@ -59,7 +59,7 @@ def command(
     forces = (
         f"peak normal force {result.history.normal_force.max():.2f} N along {axes['normal']} (travel {axes['travel']})"
         if touched
-        else "no contact in the last step: its normal and tangential forces are 0"
+        else "no contact in the last step: its normal and longitudinal forces are 0"
     )
     typer.echo(
         f"{output}: {result.history.time.size} samples, {forces}; "

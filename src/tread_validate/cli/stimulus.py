@@ -102,7 +102,7 @@ def command(
         write(stimulus, None if path is None else respond(stimulus, path), output / label)
         stimuli.append(stimulus)
         typer.echo(
-            f"{label}: mean normal force {stimulus.mean_normal_force:.2f} N, mean tangential force "
+            f"{label}: mean normal force {stimulus.mean_normal_force:.2f} N, mean longitudinal force "
             f"{stimulus.mean_tangential_force:.3f} N, block passing "
             + ", ".join(f"{rib} {rate:.2f} Hz" for rib, rate in stimulus.block_rates.items())
         )
@@ -153,7 +153,7 @@ def _own(study: LoadedStudy, name: str, case: Case, *, trusted: bool) -> History
 
     history = history_of(study, name, case, trusted=trusted)
     if not history.gives_tangential:
-        raise InputError(f"model {name}", "no tangential force", "both forces: the stimulus is made of both")
+        raise InputError(f"model {name}", "no longitudinal force", "both forces: the stimulus is made of both")
     return history
 
 

@@ -28,7 +28,7 @@ ROOM = 0.96  # of the height, under the note
 
 
 def pareto_figure(rows: Rows, meshes: Rows, path: Path) -> None:
-    """Draw the error of the peak normal force and the score of the tangential force against the time of a pass."""
+    """Draw the error of the peak normal force and the score of the longitudinal force against the time of a pass."""
     with styled():
         figure = canvas((8.6, 4.2))
         left, right = figure.subplots(1, 2)
@@ -57,7 +57,7 @@ def pareto_figure(rows: Rows, meshes: Rows, path: Path) -> None:
         left.set_title("Normal force, against the FE runs\n(FE meshes: against their own limit)", loc="left")
         right.set(xscale="log", ylim=(0.0, 1.02), xlabel="processor time of one pass, s")
         right.set_ylabel("mean ISO/TS 18571 score")
-        right.set_title("Tangential force history, against the FE runs\n(1 is perfect)", loc="left")
+        right.set_title("Longitudinal force history, compared with the FE runs\n(1 is perfect)", loc="left")
         figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
         _mark(figure, rows)
         _save(figure, path)

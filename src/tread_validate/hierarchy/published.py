@@ -21,7 +21,7 @@ from .tables import CombinationRow, PublishedFigure
 Array = NDArray[np.float64]
 
 NORMAL, TANGENTIAL, CREEP = 200.0, 80.0, 0.003
-"""N, N and 1: N ~ 200 N, |T|max ~ 80 N, creep 0.3 % without net tangential impulse (section 5 of the paper)."""
+"""N, N and 1: N ~ 200 N, |T|max ~ 80 N, creep 0.3 % without net longitudinal impulse (section 5 of the paper)."""
 VARIED = ("edge_radius_mm", "patch_length_mm")
 TOLERANCE = 0.10
 """The paper prints one or two figures: a value within this share of it is counted as met."""
@@ -58,14 +58,14 @@ def _rows(level: str, case: Case, found: Scalars, creep: float | None, note: str
     tangential = max(found.peak_positive_tangential_force, -found.peak_negative_tangential_force)
     figures: list[tuple[str, float | None, float | None, str]] = [
         ("peak normal force", NORMAL, found.peak_normal_force, "N"),
-        ("largest tangential force", TANGENTIAL, tangential, "N"),
-        ("largest tangential over largest normal force", 1.0 / 3.0, found.tangential_to_normal_ratio, "1"),
+        ("peak longitudinal force", TANGENTIAL, tangential, "N"),
+        ("peak longitudinal over peak normal force", 1.0 / 3.0, found.tangential_to_normal_ratio, "1"),
         ("free-rolling creep ratio", CREEP, creep, "1"),
-        ("tangential force changes sign again at the exit", 1.0, found.late_sign_change, "1"),
+        ("longitudinal force changes sign again at the exit", 1.0, found.late_sign_change, "1"),
     ]
     if creep is None:
         share = found.net_tangential_impulse / (found.normal_impulse * found.tangential_to_normal_ratio)
-        figures.append(("net tangential impulse at 0.3 % over ratio times normal impulse", 0.0, share, "1"))
+        figures.append(("net longitudinal impulse at 0.3 % over ratio times normal impulse", 0.0, share, "1"))
     out = []
     for figure, published, computed, unit in figures:
         error = met = None

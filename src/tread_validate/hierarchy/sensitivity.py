@@ -131,8 +131,8 @@ class OutputQuantity:
 
 FORCES = (
     OutputQuantity("peak normal force", "N"),
-    OutputQuantity("peak positive tangential force", "N"),
-    OutputQuantity("peak negative tangential force", "N"),
+    OutputQuantity("peak longitudinal force, leading edge", "N"),
+    OutputQuantity("peak longitudinal force, trailing edge", "N"),
 )
 CREEP = OutputQuantity("free-rolling creep", "1")
 
@@ -154,7 +154,7 @@ def sobol_rows(case: Case, samples: int = 256, with_creep: bool = True, seed: in
         "bounds": [[factor.low, factor.high] for factor in factors],
     }
     inputs = sampler.sample(problem, samples, calc_second_order=False, seed=seed)
-    # on the rig the springs have hardly any tangential force: what they have is no finding
+    # on the rig the springs have hardly any longitudinal force: what they have is no finding
     quantities = FORCES[:1] if not case.path.pulls else (*FORCES, CREEP) if with_creep else FORCES
     outputs = evaluate(case, factors, inputs, CREEP in quantities)
     rows = []

@@ -10,7 +10,7 @@ LEVEL = "level of the hierarchy: a variant of the spring model, or `model:<name>
 GROUP = "`all`, or the cases of one kind of path: `rig`, `belt`"
 REFERENCE = "runs that the level is compared with, `fe:<engine>`"
 CASE = "name of the case"
-TANGENTIAL = "largest tangential peak error over the tolerance by which the results judge that peak"
+TANGENTIAL = "largest error of a peak longitudinal force over the tolerance by which the results judge that peak"
 
 
 @table_row
@@ -29,12 +29,12 @@ class LevelError(TableRow):
     memory_MB: float | None = column("largest resident memory of the run's process", "MB")
     peak_normal_force_error: float | None = column("relative error of the peak normal force", "1")
     normal_impulse_error: float | None = column("relative error of the normal impulse", "1")
-    peak_positive_tangential_force_error_N: float | None = column("error of the largest tangential force", "N")
-    peak_negative_tangential_force_error_N: float | None = column("error of the least tangential force", "N")
+    peak_positive_tangential_force_error_N: float | None = column("error of the peak longitudinal force towards the leading edge", "N")
+    peak_negative_tangential_force_error_N: float | None = column("error of the peak longitudinal force towards the trailing edge", "N")
     tangential_error: float | None = column(TANGENTIAL, "1")
     iso18571_normal: float | None = column("ISO/TS 18571 score of the normal force, 0..1")
-    iso18571_tangential: float | None = column("ISO/TS 18571 score of the tangential force, 0..1")
-    late_sign_change: float | None = column("1 where the tangential force changes sign again at the exit, else 0")
+    iso18571_tangential: float | None = column("ISO/TS 18571 score of the longitudinal force, 0..1")
+    late_sign_change: float | None = column("1 where the longitudinal force changes sign again at the exit, else 0")
     note: str = column(NOTE)
     assumed: str = column(ASSUMED)
 
@@ -58,12 +58,12 @@ class Level(TableRow):
     worst_peak_normal_force_error: float | None = column("largest error of the peak normal force, with sign", "1")
     worst_case_id: str = column("case of that error")
     worst_normal_impulse_error: float | None = column("largest error of the normal impulse, with sign", "1")
-    tangential_within: float | None = column("share of runs with both tangential peaks within their tolerance", "1")
-    worst_tangential_error_N: float | None = column("largest |error| of a tangential peak", "N")
+    tangential_within: float | None = column("share of runs with both peak longitudinal forces within their tolerance", "1")
+    worst_tangential_error_N: float | None = column("largest |error| of a peak longitudinal force", "N")
     least_iso18571_normal: float | None = column("least ISO/TS 18571 score of the normal force")
-    least_iso18571_tangential: float | None = column("least ISO/TS 18571 score of the tangential force")
+    least_iso18571_tangential: float | None = column("least ISO/TS 18571 score of the longitudinal force")
     mean_iso18571_normal: float | None = column("mean ISO/TS 18571 score of the normal force")
-    mean_iso18571_tangential: float | None = column("mean ISO/TS 18571 score of the tangential force")
+    mean_iso18571_tangential: float | None = column("mean ISO/TS 18571 score of the longitudinal force")
     target: str = column("what the level was to reach; empty where nothing was asked")
     target_met: bool | None = column("whether it does")
     target_missed: str = column("parts of the target that it misses, with what it reaches")
@@ -102,8 +102,8 @@ class Effect(TableRow):
     after: str = column("model with it")
     peak_normal_force_percent: float | None = column("change of the peak normal force", "%")
     normal_impulse_percent: float | None = column("change of the normal impulse", "%")
-    peak_positive_tangential_force_N: float | None = column("change of the largest tangential force", "N")
-    peak_negative_tangential_force_N: float | None = column("change of the least tangential force", "N")
+    peak_positive_tangential_force_N: float | None = column("change of the peak longitudinal force towards the leading edge", "N")
+    peak_negative_tangential_force_N: float | None = column("change of the peak longitudinal force towards the trailing edge", "N")
     peak_normal_force_N: float | None = column("peak normal force with the change", "N")
     assumed: str = column(ASSUMED)
 
@@ -158,9 +158,9 @@ class CombinationRow(TableRow):
     patch_length_mm: float = column("length of the patch", "mm")
     modulus_factor: float = column("factor on all moduli of the compound")
     peak_normal_force_N: float = column("peak normal force", "N")
-    largest_tangential_force_N: float = column("largest |tangential force|", "N")
+    largest_tangential_force_N: float = column("largest |longitudinal force|", "N")
     creep_percent: float = column("creep ratio of free rolling", "%")
-    late_sign_change: float = column("1 where the tangential force changes sign again at the exit, else 0")
+    late_sign_change: float = column("1 where the longitudinal force changes sign again at the exit, else 0")
     meets_all: bool = column("whether all figures are met")
     note: str = column(NOTE)
     assumed: str = column(ASSUMED)

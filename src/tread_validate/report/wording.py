@@ -8,7 +8,7 @@ from ..compare.quantities import HISTORIES, HISTORY_METRICS, SCALARS
 from .content import Tone
 
 QUANTITIES = {item.name: item.label for item in SCALARS} | {"peak_pressure": "Peak pressure"}
-QUANTITIES |= {key: label.replace("Tangential", "Longitudinal") for key, label in HISTORIES.items()}
+QUANTITIES |= HISTORIES
 METRICS = {"scalar": ""} | {item.name: item.label for item in HISTORY_METRICS}
 SIGNED = ("scalar", "sprague_geers_m")
 GROUPS = {

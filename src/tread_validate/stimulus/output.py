@@ -132,7 +132,7 @@ def draw(stimuli: list[Stimulus], path: Path, assumed: str = "") -> None:
                 )
                 offset = (index - 0.5 * (len(stimuli) - 1)) * 0.27 / stimulus.period
                 axes[row, 1].vlines(stimulus.frequency[1:] + offset, 0, lines[row][1:], color=colour, lw=1.1)
-        for row, name in enumerate(("normal force, N", "tangential force, N")):
+        for row, name in enumerate(("normal force, N", "longitudinal force, N")):
             axes[row, 0].set(xlabel="time, ms", ylabel=name)
             axes[row, 1].set(xlabel="frequency, Hz", ylabel=f"{name} (peak)", ylim=(0, None))
             axes[row, 1].set_xlim(0, stimuli[0].frequency[-1])

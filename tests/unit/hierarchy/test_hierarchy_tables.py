@@ -166,7 +166,7 @@ def test_published_figures_name_the_one_that_each_level_misses(belt):
     """The paper's springs meet 200 N, because the surrogate compound was made to; not the second change of sign."""
     rows = {row["figure"]: row for row in published.published_rows([belt], {}, "embedded", ("paper",))}
     assert rows["peak normal force"]["met"] is True
-    assert rows["tangential force changes sign again at the exit"]["met"] is False
+    assert rows["longitudinal force changes sign again at the exit"]["met"] is False
 
 
 def test_a_case_with_other_moduli_has_forces_in_proportion(belt):

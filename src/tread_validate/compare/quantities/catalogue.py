@@ -30,7 +30,7 @@ SCALARS = (
              needs="tangential"),
     Quantity("normal_impulse", "N s", "Normal impulse", "J_N", of.normal_impulse, of.as_force,
              Noise(RELATIVE, 1e-7), "itself", FORCE_TOLERANCE, PAPER),
-    Quantity("net_tangential_impulse", "N s", "Net tangential impulse", "J_T", of.net_tangential_impulse,
+    Quantity("net_tangential_impulse", "N s", "Net longitudinal impulse", "J_T", of.net_tangential_impulse,
              of.as_difference, Noise(RELATIVE, 2e-6), "normal_impulse", 0.02,
              "a fifth of what the forces are allowed: it is a small difference of two large impulses",
              needs="tangential"),
@@ -43,12 +43,12 @@ SCALARS = (
              "as the forces; below 0.2 what that is at 0.2", floor=0.02, needs="tangential"),
     Quantity("late_sign_change", "1", "T changes sign again at exit", "", of.late_sign_change, of.untouched,
              Noise(0.0, 0.5), "one", 0.5, "it does or it does not", needs="tangential", flag=True),
-    Quantity("slipping_share", "1", "Share of the face that slips", "", of.slipping_share, of.not_known,
+    Quantity("slipping_share", "1", "Sliding area fraction", "", of.slipping_share, of.not_known,
              Noise(0.0, 2e-3), "one", 0.10, "as the forces", needs="slip", measured=False),
 )  # fmt: skip
 SCALAR = {quantity.name: quantity for quantity in SCALARS}
 
-HISTORIES = {"normal_force": "Normal force history", "tangential_force": "Tangential force history"}
+HISTORIES = {"normal_force": "Normal force history", "tangential_force": "Longitudinal force history"}
 
 SCORE, ISO = Noise(0.0, 2e-4), Noise(0.0, 2e-3)
 

@@ -37,7 +37,7 @@ class CaseRow(TableRow):
     speed_m_s: float = column("speed of the surface", "m/s")
     speed_rpm: float | None = column("speed of the small wheel, on a rig", "1/min")
     creep_percent: float | None = column("creep ratio: road faster than block", "%", noise=Noise(1e-5, 1e-7))
-    free_rolling: bool = column("whether the creep ratio is that of no net tangential impulse")
+    free_rolling: bool = column("whether the creep ratio is that of no net longitudinal impulse")
     measured_profile: bool = column("whether the path is a measured trace")
     shape: str = column("plan of the block: rectangle or parallelogram")
     assumed: str = column(ASSUMED)
