@@ -11,7 +11,7 @@ PURPLE, ORANGE, SKY, GREY = "#CC79A7", "#E69F00", "#56B4E9", "#6b737c"
 
 @dataclass(frozen=True)
 class Look:
-    """How one source is drawn, by matplotlib and by plotly."""
+    """How one source is drawn, by matplotlib and in the page."""
 
     color: str
     line: str

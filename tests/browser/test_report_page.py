@@ -41,10 +41,10 @@ def read_page(new_tab: Any, page: Path) -> Iterator[Any]:
 
 
 def _charts(tab: Any) -> None:
-    """Go to both charts, so that the plotting library is inflated and they are drawn."""
+    """Go to both charts, so that they are drawn."""
     for place, chart in (("browser", CHART), ("scatter", POINTS)):
         tab.js(f"document.getElementById('{place}').scrollIntoView()")
-        tab.until(f"{chart}.data !== undefined && {chart}.querySelector('.main-svg') !== null")
+        tab.until(f"{chart}.data !== undefined && {chart}.querySelector('svg') !== null")
 
 
 def test_page_loads_without_complaints_or_network_requests(read_page: Any, page: Path) -> None:
@@ -73,7 +73,46 @@ def test_browser_opens_with_a_case_that_has_histories(read_page: Any) -> None:
     """Exact: two sources times three panels are drawn, and the errors of that case stand beside them."""
     assert read_page.js("TV.browser.current()") == FIRST
     assert read_page.js("document.getElementById('case-plot').data.length") == 6
-    assert read_page.js("document.querySelectorAll('#case-errors tr:not(.group)').length") == 9
+    assert read_page.js("document.querySelectorAll('#case-errors tr:not(.group)').length") == 3
+
+
+def test_all_errors_of_a_case_are_a_button_away(open_page: Any) -> None:
+    """Exact: peak forces and overall scores at first, every error of the case after the button, and back."""
+    rows = "document.querySelectorAll('#case-errors tr:not(.group)').length"
+    for wanted in (9, 3, 9):
+        open_page.click("#case-all")
+        open_page.until(f"{rows} === {wanted}")
+
+
+def test_series_is_hidden_and_shown_by_its_key_and_time_is_zoomed(open_page: Any) -> None:
+    """Exact: Enter on a key takes its three curves away and brings them back; a drag along x shows that part alone."""
+    curves = f"[...{CHART}.querySelectorAll('g[clip-path] path')].length"
+    assert open_page.js(curves) == 6
+    for left in (3, 6):
+        open_page.js(f"{CHART}.querySelector('.key').focus()")
+        open_page.key("Enter")
+        assert open_page.js(curves) == left
+    labels = f"[...{CHART}.querySelectorAll('text')].map(t => t.textContent).join()"
+    whole = open_page.js(labels)
+    open_page.js(f"{CHART}.scrollIntoView({{block: 'center'}})")
+    x, y = open_page.js(f"(r => [r.x, r.y])({CHART}.getBoundingClientRect())")
+    for kind, across in (("mousePressed", 200), ("mouseMoved", 300), ("mouseReleased", 300)):
+        open_page.send(
+            "Input.dispatchMouseEvent", type=kind, x=x + across, y=y + 200, button="left", buttons=1, clickCount=1
+        )
+    assert open_page.js(labels) != whole
+    open_page.click("#case-plot .whole")
+    assert open_page.js(labels) == whole
+
+
+def test_values_under_the_pointer_are_told(open_page: Any) -> None:
+    """Exact: an arrow key on the focused chart tells time, both sources' forces and their units."""
+    open_page.js(f"{CHART}.focus()")
+    for _ in range(5):
+        open_page.key("ArrowRight")
+    told = open_page.js(f"[...{CHART}.querySelectorAll('.tip div')].map(line => line.textContent)")
+    assert told[0].startswith("time from first contact, ms: ")
+    assert any(line.startswith("Built-in explicit FE: ") and line.endswith(" N") for line in told)
 
 
 def test_browser_switches_cases_by_factor(open_page: Any) -> None:
@@ -144,7 +183,7 @@ def test_first_screen_holds_models_picture_and_references(
     parts = [
         ".first .lead",
         "#model-spring-paper .why",
-        ".first-picture img",
+        ".first-picture svg",
         *(f".facts div:nth-child({i})" for i in (1, 2, 3)),
     ]
     for part in parts:
@@ -281,7 +320,7 @@ def test_table_sorts_by_value_both_ways(open_page: Any) -> None:
 
 def test_scatter_holds_one_point_a_compared_case(read_page: Any) -> None:
     """Exact: 18 cases less one stale and one missing reference."""
-    points = "document.getElementById('scatter-plot').data.filter(t => t.mode === 'markers')[0].x.length"
+    points = "document.getElementById('scatter-plot').data.filter(t => t.symbol)[0].x.length"
     assert read_page.js(points) == 16
 
 
@@ -317,6 +356,8 @@ def test_every_form_control_and_picture_has_a_name(read_page: Any) -> None:
     bare = "[...document.querySelectorAll('input, select')].filter(e => !e.labels.length).length"
     assert read_page.js(bare) == 0
     assert read_page.js("[...document.images].filter(i => !i.alt).length") == 0
+    drawings = "[...document.querySelectorAll('.drawing')]"
+    assert read_page.js(f"{drawings}.filter(d => d.getAttribute('role') !== 'img' || !d.ariaLabel).length") == 0
     assert (
         read_page.js("[...document.querySelectorAll('.plot')].filter(p => !p.getAttribute('aria-label')).length") == 0
     )

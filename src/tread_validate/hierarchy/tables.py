@@ -29,8 +29,12 @@ class LevelError(TableRow):
     memory_MB: float | None = column("largest resident memory of the run's process", "MB")
     peak_normal_force_error: float | None = column("relative error of the peak normal force", "1")
     normal_impulse_error: float | None = column("relative error of the normal impulse", "1")
-    peak_positive_tangential_force_error_N: float | None = column("error of the peak longitudinal force towards the leading edge", "N")
-    peak_negative_tangential_force_error_N: float | None = column("error of the peak longitudinal force towards the trailing edge", "N")
+    peak_positive_tangential_force_error_N: float | None = column(
+        "error of the peak longitudinal force, leading edge", "N"
+    )
+    peak_negative_tangential_force_error_N: float | None = column(
+        "error of the peak longitudinal force, trailing edge", "N"
+    )
     tangential_error: float | None = column(TANGENTIAL, "1")
     iso18571_normal: float | None = column("ISO/TS 18571 score of the normal force, 0..1")
     iso18571_tangential: float | None = column("ISO/TS 18571 score of the longitudinal force, 0..1")
@@ -58,7 +62,7 @@ class Level(TableRow):
     worst_peak_normal_force_error: float | None = column("largest error of the peak normal force, with sign", "1")
     worst_case_id: str = column("case of that error")
     worst_normal_impulse_error: float | None = column("largest error of the normal impulse, with sign", "1")
-    tangential_within: float | None = column("share of runs with both peak longitudinal forces within their tolerance", "1")
+    tangential_within: float | None = column("share of runs with both peaks of T within their tolerance", "1")
     worst_tangential_error_N: float | None = column("largest |error| of a peak longitudinal force", "N")
     least_iso18571_normal: float | None = column("least ISO/TS 18571 score of the normal force")
     least_iso18571_tangential: float | None = column("least ISO/TS 18571 score of the longitudinal force")
@@ -102,8 +106,8 @@ class Effect(TableRow):
     after: str = column("model with it")
     peak_normal_force_percent: float | None = column("change of the peak normal force", "%")
     normal_impulse_percent: float | None = column("change of the normal impulse", "%")
-    peak_positive_tangential_force_N: float | None = column("change of the peak longitudinal force towards the leading edge", "N")
-    peak_negative_tangential_force_N: float | None = column("change of the peak longitudinal force towards the trailing edge", "N")
+    peak_positive_tangential_force_N: float | None = column("change of the peak longitudinal force, leading edge", "N")
+    peak_negative_tangential_force_N: float | None = column("change of the peak longitudinal force, trailing edge", "N")
     peak_normal_force_N: float | None = column("peak normal force with the change", "N")
     assumed: str = column(ASSUMED)
 

@@ -110,6 +110,8 @@ def scatter(
         own = [row for row in scalars if row.quantity == quantity]
         if not own:
             continue
+        unit = own[0].unit
+        own = [row for row in own if row.reference and row.predicted and (row.reference > 0) == (row.predicted > 0)]
         series = []
         several = len({row.reference_source for row in own}) > 1
         for pair in pairs_of(own):
@@ -117,7 +119,6 @@ def scatter(
                 (row.case_id, abs(row.reference), abs(row.predicted))
                 for row in own
                 if pair_of(row) == pair and row.reference and row.predicted
-                if (row.reference > 0) == (row.predicted > 0)
             ]
             statistics = tables.statistics(pair, quantity)
             look = looks[pair[0]]
@@ -125,7 +126,7 @@ def scatter(
                 {
                     "label": wording.source(pair[0]) + (f" compared with {wording.source(pair[1])}" if several else ""),
                     "ids": [case for case, _, _ in points],
-                    "labels": [_escape(labels.get(case, case)) for case, _, _ in points],
+                    "labels": [labels.get(case, case) for case, _, _ in points],
                     "x": [_rounded(x) for _, x, _ in points],
                     "y": [_rounded(y) for _, _, y in points],
                     "bias": None if statistics is None else statistics.bias,
@@ -137,11 +138,6 @@ def scatter(
         choices.append(wording.quantity(quantity))
         spreads = [row.reference_scatter for row in tables.ensemble if (row.group, row.quantity) == ("all", quantity)]
         reference = max((value for value in spreads if value is not None), default=None)
-        data.append({"unit": own[0].unit, "series": series, "reference": reference})
+        data.append({"unit": unit, "series": series, "reference": reference})
     assumed = marks.of_column(row.assumed for row in scalars)
     return Widget("scatter", {"choices": choices, "marks": assumed}), data
-
-
-def _escape(text: str) -> str:
-    """Keep plotly from reading markup in a label: it knows a few tags."""
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

@@ -7,7 +7,6 @@ import hashlib
 import itertools
 import json
 import re
-import struct
 import zlib
 from collections.abc import Iterable, Mapping
 from importlib import resources
@@ -24,6 +23,8 @@ SCRIPTS = (
     "start.js",
     "svg.js",
     "figures.js",
+    "chart.js",
+    "chart_reader.js",
     "filter.js",
     "sort.js",
     "browser.js",
@@ -36,9 +37,9 @@ SCRIPTS = (
 def render(report: Report) -> str:
     """Return the page's text: every asset inside, no address outside itself.
 
-    The page's Content-Security-Policy names its two scripts by their SHA-256 and allows no connection, so markup that
+    The page's Content-Security-Policy names its one script by its SHA-256 and allows no connection, so markup that
     came in with a study could neither run nor call out even if it were not escaped, which it is. What is not needed at
-    once (the plotting library, histories, figures) lies in the page deflated, and is inflated when it is asked for.
+    once (histories, figures, folded tables) lies in the page deflated, and is inflated when it is asked for.
     """
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(str(_templates())),
@@ -48,7 +49,7 @@ def render(report: Report) -> str:
         lstrip_blocks=True,
     )
     environment.filters.update(
-        by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri, size=_size
+        by_origin=by_origin, groups=_groups, kind=lambda item: type(item).__name__, data_uri=_data_uri, shape=_shape
     )
     data = {
         **_packed(report.page_data),
@@ -56,16 +57,15 @@ def render(report: Report) -> str:
         "numbers": _numbers(report),
         "tables": _folded(report, environment),
     }
-    plotly, script = _plotly(), "\n".join(_asset(name) for name in SCRIPTS)
+    script = "\n".join(_asset(name) for name in SCRIPTS)
     return (
         environment.get_template("index.html.j2")
         .render(
             report=report,
             style=Markup(_asset("style.css")),
             data=embed_json(data),
-            plotly=deflated(plotly),
             script=Markup(script),
-            policy=_policy(plotly, script),
+            policy=_policy(script),
         )
         .lstrip()
     )
@@ -114,13 +114,13 @@ def _folded(report: Report, environment: jinja2.Environment) -> dict[str, str]:
     return {table.key: deflated(str(set_table(table))) for table in tables}
 
 
-def _size(path: Path) -> Markup:
-    """Return width and height attributes of an SVG, so that the page does not move when it is drawn."""
+def _shape(path: Path) -> str:
+    """Return the style that keeps an SVG's place, so that the page does not move when it is drawn."""
     found = re.search(r'<svg [^>]*?width="([0-9.]+)pt" height="([0-9.]+)pt"', path.read_text(encoding="utf-8"))
     if found is None:
-        return Markup("")
+        return ""
     width, height = (round(float(text)) for text in found.groups())
-    return Markup('width="{}" height="{}"').format(width, height)
+    return f"aspect-ratio: {width} / {height}"
 
 
 def _groups(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
@@ -131,29 +131,9 @@ def _data_uri(path: Path) -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
 
 
-def _policy(*scripts: str) -> str:
-    hashes = " ".join(
-        "'sha256-" + base64.b64encode(hashlib.sha256(text.encode("utf-8")).digest()).decode("ascii") + "'"
-        for text in scripts
-    )
-    return f"default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src {hashes}"
-
-
-def _plotly() -> str:
-    # read as a file: importing plotly itself costs a second and gives nothing more
-    text = resources.files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
-    return ascii_script(text.replace("\r\n", "\n"))
-
-
-def ascii_script(text: str) -> str:
-    """Write every sign of a script beyond ASCII as an escape: a browser then keeps a byte a sign instead of two."""
-    units = re.compile("[^\x00-\x7f]+")
-    return units.sub(lambda found: "".join(f"\\u{unit:04x}" for unit in _utf16(found[0])), text)
-
-
-def _utf16(text: str) -> tuple[int, ...]:
-    packed = text.encode("utf-16-be")
-    return struct.unpack(f">{len(packed) // 2}H", packed)
+def _policy(script: str) -> str:
+    digest = base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
+    return f"default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
 
 
 def _templates() -> Path:

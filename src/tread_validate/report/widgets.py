@@ -20,6 +20,8 @@ from .models import judged
 from .tables import Tables
 
 OWN = ("current", "undefined", "no_contact", "not_given")  # statuses of one quantity, not of a whole run
+FIRST = ("peak_normal_force", "peak_positive_tangential_force", "peak_negative_tangential_force")
+"""Quantities whose errors a reader of one case sees first, beside the overall scores of its histories."""
 # parts of a score that the browser leaves to the CSV tables
 PARTS = ("iso18571_corridor", "iso18571_phase", "iso18571_magnitude", "iso18571_slope")
 
@@ -116,6 +118,7 @@ def _parts(note: str) -> set[str]:
 
 
 def _case_error(row: MetricRow, why: str, alike: set[str]) -> dict[str, str]:
+    first = row.metric == "iso18571" or (row.metric == "scalar" and row.quantity in FIRST)
     unit = wording.unit(row.unit)
     open_ = row.error is None and row.status not in OWN
     return {
@@ -130,4 +133,5 @@ def _case_error(row: MetricRow, why: str, alike: set[str]) -> dict[str, str]:
         "tone": "" if open_ else wording.TONES.get(row.assessment, ""),
         "note": "; ".join(part for part in row.note.split("; ") if part not in alike),
         "why": why,
+        "first": "1" if first else "",
     }

@@ -45,47 +45,62 @@ TV.browser = (function () {
       const packed = own.histories[source.key];
       if (!packed) { continue; }
       const history = unpack(packed);
-      const line = { color: TV.ink(source.color), dash: source.dash, width: source.reference ? 2.4 : 1.8 };
-      const common = { mode: "lines", type: "scatter", x: history.time, line, name: source.label, legendgroup: source.key };
-      traces.push(Object.assign({}, common, { y: history.normal, hovertemplate: "%{y:.1f} N" }));
-      if (history.tangential) { traces.push(Object.assign({}, common, { y: history.tangential, yaxis: "y2", showlegend: false, hovertemplate: "%{y:.2f} N" })); }
-      if (source.slips && history.slipping) { traces.push(Object.assign({}, common, { y: history.slipping.map((v) => 100 * v), yaxis: "y3", showlegend: false, hovertemplate: "%{y:.0f} %" })); }
+      const common = { x: history.time, name: source.label, color: source.color, dash: source.dash, width: source.reference ? 2.4 : 1.8 };
+      traces.push(Object.assign({}, common, { y: history.normal, panel: 0, unit: "N" }));
+      if (history.tangential) { traces.push(Object.assign({}, common, { y: history.tangential, panel: 1, unit: "N" })); }
+      if (source.slips && history.slipping) { traces.push(Object.assign({}, common, { y: history.slipping.map((v) => 100 * v), panel: 2, unit: "%" })); }
     }
-    const layout = TV.layout({
-      grid: { rows: 3, columns: 1 }, hovermode: "x unified", dragmode: TV.coarse ? false : "zoom",
-      xaxis: TV.axis("time from first contact, ms", { anchor: "y3", domain: [0, 1] }),
-      yaxis: TV.axis("normal force, N", { domain: [0.62, 1] }),
-      yaxis2: TV.axis("longitudinal force, N", { domain: [0.25, 0.57] }),
-      yaxis3: TV.axis("sliding area, %", { domain: [0, 0.2], range: [-4, 104], dtick: 50 }),
-      height: 560,
+    TV.draw("case-plot", {
+      height: 560, x: { title: "time from first contact, ms" }, traces, empty: traces.length ? "" : "no history for this case",
+      panels: [{ title: "normal force, N", share: 0.43 }, { title: "longitudinal force, N", share: 0.35 }, { title: "sliding area, %", share: 0.22, range: [-4, 104], ticks: [0, 50, 100] }],
     });
-    if (traces.length === 0) {
-      layout.annotations = [{ text: "no history for this case", showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.8 }];
-    }
-    return TV.draw("case-plot", traces, layout);
   }
 
-  function drawErrors(own) {
-    const body = document.getElementById("case-errors");
-    body.replaceChildren();
+  /* The rows of the error table as [class, cells], a cell as [text, class, what stands small below it]. */
+  function errorRows(errors) {
+    const rows = [];
     let last = null;
-    for (const row of own.errors) {
+    for (const row of errors) {
       const pair = row.p + " compared with " + row.r;
       if (pair !== last) {
-        const head = TV.element("th", { colspan: 5, scope: "colgroup" }, pair);
-        if (row.why) { head.append(TV.element("span", { class: "why" }, row.why)); }
-        body.append(TV.element("tr", { class: "group" }, head));
+        rows.push(["group", [[pair, "", [row.why]]]]);
         last = pair;
       }
-      const assessment = TV.element("td", { class: "assessment " + (row.tone ? row.tone + "-text" : "") }, row.v);
-      if (row.u) { assessment.append(TV.element("span", { class: "why" }, row.u)); }
-      if (row.note) { assessment.append(TV.element("span", { class: "why" }, row.note)); }
-      body.append(TV.element("tr", {}, TV.element("td", {}, row.q), TV.element("td", { class: "num" }, row.a),
-        TV.element("td", { class: "num" }, row.b), TV.element("td", { class: "num" }, row.e), assessment));
+      rows.push(["", [[row.q, "", []], [row.a, "num", []], [row.b, "num", []], [row.e, "num", []],
+        [row.v, "assessment " + (row.tone ? row.tone + "-text" : ""), [row.u, row.note]]]]);
     }
-    if (!body.children.length) {
-      body.append(TV.element("tr", {}, TV.element("td", { colspan: 5 }, "No comparison for this case.")));
-    }
+    return rows.length ? rows : [["", [["No comparison for this case.", "", []]]]];
+  }
+
+  /* Rows are kept from case to case and only their words changed: rows made anew at every step would wait for the
+     browser's garbage collector with all their boxes, 2 MB a case. */
+  function drawErrors(own) {
+    const body = document.getElementById("case-errors"), every = document.getElementById("case-all");
+    const first = own.errors.filter((row) => row.first), all = every.getAttribute("aria-pressed") === "true" || !first.length;
+    const rows = errorRows(all ? own.errors : first);
+    every.textContent = `All ${own.errors.length} errors`;
+    while (body.rows.length > rows.length) { body.lastElementChild.remove(); }
+    rows.forEach(([name, cells], i) => {
+      let line = body.rows[i];
+      if (!line || line.className !== name || line.cells.length !== cells.length) {
+        const tag = name ? "th" : "td", span = cells.length === 1 ? 5 : null;
+        const fresh = TV.element("tr", { class: name || null }, ...cells.map(() => TV.element(tag, { colspan: span, scope: name ? "colgroup" : null }, "")));
+        if (line) { line.replaceWith(fresh); } else { body.append(fresh); }
+        line = fresh;
+      }
+      cells.forEach(([text, kind, notes], j) => fill(line.cells[j], text, kind, notes.filter(Boolean)));
+    });
+  }
+
+  function fill(cell, text, kind, notes) {
+    if (cell.className !== kind) { cell.className = kind; }
+    if (!cell.firstChild || cell.firstChild.nodeType !== Node.TEXT_NODE) { cell.prepend(document.createTextNode("")); }
+    if (cell.firstChild.data !== text) { cell.firstChild.data = text; }
+    while (cell.children.length > notes.length) { cell.lastElementChild.remove(); }
+    notes.forEach((note, k) => {
+      const span = cell.children[k] || cell.appendChild(TV.element("span", { class: "why" }, ""));
+      if (span.textContent !== note) { span.textContent = note; }
+    });
   }
 
   function drawHead() {
@@ -114,7 +129,7 @@ TV.browser = (function () {
     if (current !== item) { return true; }
     held = own;
     drawErrors(own);
-    if (visible) { await drawHistories(own); }
+    if (visible) { drawHistories(own); }
     return true;
   }
 
@@ -149,12 +164,15 @@ TV.browser = (function () {
       const item = nearest(factor, Number(event.target.value));
       if (item) { show(item.id, true); }
     });
+    document.getElementById("case-all").addEventListener("click", (event) => {
+      event.target.setAttribute("aria-pressed", String(event.target.getAttribute("aria-pressed") !== "true"));
+      if (held) { drawErrors(held); }
+    });
     document.getElementById("case-previous").addEventListener("click", () => step(-1));
     document.getElementById("case-next").addEventListener("click", () => step(1));
     window.addEventListener("hashchange", () => fromHash(true));
     const redraw = () => { if (held && visible) { drawHistories(held); } };
     TV.near(document.getElementById("case-plot"), () => { visible = true; redraw(); });
-    TV.dark.addEventListener("change", redraw);
     if (!fromHash(true)) { show(data.first, false); }
   }
   return { start, show, current: () => (current ? current.id : null) };

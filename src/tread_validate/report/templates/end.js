@@ -26,8 +26,6 @@ for (const item of document.querySelectorAll("details.folded")) {
     TV.sortTables(item); TV.filterTables(item); TV.scrollRegions(item);
   });
 }
-/* Charts drawn for the screen are redrawn at the paper's width before printing. */
-const charts = (size) => { if (window.Plotly) { document.querySelectorAll(".js-plotly-plot").forEach((plot) => Plotly.relayout(plot, size)); } };
-window.addEventListener("beforeprint", () => { TV.figures.all(); charts({ width: 640 }); });
-window.addEventListener("afterprint", () => charts({ width: null, autosize: true }));
+/* Every figure is drawn before printing. */
+window.addEventListener("beforeprint", () => { TV.figures.all(); });
 document.documentElement.dataset.ready = "yes";

@@ -1,23 +1,28 @@
-/* Drawn figures: inflated when they come near the window, let go when they are far away. Every figure and chart is saved
-   as SVG, PNG or CSV out of the page itself, so that a page that was mailed alone can do it too. */
+/* Drawn figures: inflated into the page when they come near the window, let go when they are far away. Every figure and
+   chart is saved as SVG, PNG or CSV out of the page itself, so that a page that was mailed alone can do it too. */
 "use strict";
 TV.figures = (function () {
-  const images = Array.from(document.querySelectorAll("img[data-figure]"));
+  const places = Array.from(document.querySelectorAll(".drawing"));
+  const first = new Map();
   async function drawing(key) {
+    const chart = document.getElementById(key);
+    if (chart) { return TV.chart.text(chart); }
     if (TV.data.figures[key]) { return TV.inflate(TV.data.figures[key]); }
-    const packed = document.querySelector("#figure-" + CSS.escape(key) + " img").src.split(",")[1];
-    return new TextDecoder().decode(TV.bytes(packed));
+    return first.get(key);
   }
-  async function show(image) {
-    if (image.src) { return; }
-    const text = TV.joined(await drawing(image.dataset.figure));
-    if (!image.src) { image.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" })); }
-    return image.decode();
+  async function show(place) {
+    if (place.firstElementChild) { return; }
+    const text = TV.themed(await drawing(place.dataset.figure), place.dataset.figure);
+    if (!place.firstElementChild) { place.innerHTML = text; }
   }
-  function hide(image) {
-    if (!image.src) { return; }
-    URL.revokeObjectURL(image.src);
-    image.removeAttribute("src");
+  /* the first screen's picture stands in the page as an image, for readers without scripts */
+  function adopt(place) {
+    const image = place.querySelector("img");
+    if (!image) { return; }
+    first.set(place.dataset.figure, new TextDecoder().decode(TV.bytes(image.src.split(",")[1])));
+    Object.entries({ role: "img", "aria-label": image.alt }).forEach(([key, value]) => place.setAttribute(key, value));
+    image.remove();
+    show(place);
   }
   async function png(key) {
     const image = new Image();
@@ -31,29 +36,22 @@ TV.figures = (function () {
     URL.revokeObjectURL(image.src);
     return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
   }
-  /* the numbers of a chart as they are drawn; those of the case browser name their case */
+  /* the numbers of a chart as they are drawn; points name their case */
   function traces(chart) {
     const field = (value) => (typeof value === "number" ? String(Number(value.toPrecision(6))) : '"' + String(value).replaceAll('"', '""') + '"');
     const lines = ["panel,series,point,x,y"];
     for (const trace of chart.data) {
-      const across = chart.layout.xaxis.title.text, up = chart.layout["yaxis" + (trace.yaxis || "y").slice(1)].title.text;
-      trace.x.forEach((x, i) => lines.push([up + " against " + across, trace.name, trace.customdata ? trace.customdata[i] : "", x, trace.y[i]].map(field).join(",")));
+      const panel = chart.spec.panels[trace.panel || 0].title + " against " + chart.spec.x.title;
+      trace.x.forEach((x, i) => lines.push([panel, trace.name, trace.ids ? trace.ids[i] : "", x, trace.y[i]].map(field).join(",")));
     }
     return lines.join("\n") + "\n";
   }
   /* what a button saves: a blob and its name */
   async function made(key, kind) {
-    const chart = document.getElementById(key);
-    const name = (chart ? (key === "case-plot" ? TV.browser.current() : key) : key) + "." + kind;
-    if (kind === "csv") {
-      const text = chart ? traces(chart) : await TV.inflate(TV.data.numbers[key]);
-      return [new Blob([text], { type: "text/csv" }), name];
-    }
-    if (!chart) { return [kind === "png" ? await png(key) : new Blob([await drawing(key)], { type: "image/svg+xml" }), name]; }
-    const address = await Plotly.toImage(chart, { format: kind, scale: kind === "png" ? 3 : 1, width: chart.clientWidth, height: chart.clientHeight });
-    const body = address.slice(address.indexOf(",") + 1);
-    const bytes = kind === "svg" ? decodeURIComponent(body) : TV.bytes(body);
-    return [new Blob([bytes], { type: kind === "svg" ? "image/svg+xml" : "image/png" }), name];
+    const chart = document.getElementById(key), name = (key === "case-plot" ? TV.browser.current() : key) + "." + kind;
+    if (kind === "png") { return [await png(key), name]; }
+    if (kind === "svg") { return [new Blob([await drawing(key)], { type: "image/svg+xml" }), name]; }
+    return [new Blob([chart ? traces(chart) : await TV.inflate(TV.data.numbers[key])], { type: "text/csv" }), name];
   }
   async function save(key, kind) {
     const [blob, name] = await made(key, kind);
@@ -63,13 +61,14 @@ TV.figures = (function () {
   }
   function start() {
     const watch = new IntersectionObserver((entries) => {
-      for (const entry of entries) { if (entry.isIntersecting) { show(entry.target); } else { hide(entry.target); } }
+      for (const entry of entries) { if (entry.isIntersecting) { show(entry.target); } else { entry.target.replaceChildren(); } }
     }, { rootMargin: "400px 0px" });
-    images.forEach((image) => watch.observe(image));
+    places.forEach(adopt);
+    places.forEach((place) => watch.observe(place));
     document.addEventListener("click", (event) => {
       const button = event.target.closest("button.save");
       if (button) { save(button.dataset.of, button.dataset.save); }
     });
   }
-  return { start, made, all: () => Promise.all(images.map(show)) };
+  return { start, made, all: () => Promise.all(places.map(show)) };
 })();
