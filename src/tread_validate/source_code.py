@@ -87,8 +87,9 @@ class Graph:
     def __init__(self, root: Path) -> None:
         self.root = root
         self.modules: dict[str, Module] = {}
+        self.path = cache(self._path)  # asked thousands of times
 
-    def path(self, name: str) -> Path | None:
+    def _path(self, name: str) -> Path | None:
         """Return the file of a module, None where there is none; ``""`` is the package itself."""
         base = self.root.joinpath(*name.split(".")) if name else self.root
         for file in (base / "__init__.py", base.with_suffix(".py") if name else base):

@@ -21,9 +21,7 @@ rule references:
 rule tables:
     input:
         study=STUDY,
-        histories=expand(
-            f"{RESULTS}/spring/{{variant}}/{{case}}.csv", variant=VARIANTS, case=CASES
-        ),
+        histories=rules.spring.output.histories,
         models=expand(rules.model.output.summary, model=MODELS),
         decks=rules.decks.output.inp,
         references=REFERENCE_FILES,

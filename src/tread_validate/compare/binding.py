@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..files import write_text
 from ..mending import mended_by
 from ..provenance import sha256_file
 from ..source_code import code_digest
-from ..study import LoadedStudy
 from .tables.made_from import PROVENANCE, MadeFrom, read_made_from
+
+if TYPE_CHECKING:
+    from ..study import LoadedStudy
 
 LATER = ("delta.csv",)
 """Written beside the tables by `check`, from them."""

@@ -34,6 +34,17 @@ def test_one_case_goes_to_one_file(paper_study: Path, tmp_path: Path, capsys: py
     assert "peak normal force" in capsys.readouterr().out
 
 
+def test_several_variants_at_once_write_what_each_writes_alone(paper_study: Path, tmp_path: Path) -> None:
+    """A folder for each below the output; the files are those of a run of one variant, to the byte."""
+    call = ["spring", str(paper_study), "--case", RIG]
+    assert run([*call, "--variant", "paper", "--variant", "light", "-o", str(tmp_path / "both")]) == 0
+    for name in ("paper", "light"):
+        assert run([*call, "--variant", name, "-o", str(tmp_path / name)]) == 0
+        files = sorted(path.name for path in (tmp_path / name).iterdir())
+        assert files == sorted(path.name for path in (tmp_path / "both" / name).iterdir()) == [f"{RIG}.csv"]
+        assert (tmp_path / "both" / name / files[0]).read_bytes() == (tmp_path / name / files[0]).read_bytes()
+
+
 def test_variants_are_listed(paper_study: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """`--variant list` prints a line for each."""
     assert run(["spring", str(paper_study), "--variant", "list"]) == 0
@@ -48,6 +59,7 @@ def test_variants_are_listed(paper_study: Path, capsys: pytest.CaptureFixture[st
         ["--case", "../../etc/passwd"],
         ["--case", RIG, "--variant", "nonsense"],
         ["--all", "-o", "one.csv"],
+        ["--case", RIG, "--variant", "paper", "--variant", "light", "-o", "one.csv"],
     ],
 )
 def test_wrong_call_is_one_line_and_exit_code_two(
