@@ -23,6 +23,19 @@ TWO_PI = 2.0 * math.pi
 
 
 @kernel()
+def clear_of(segments, x, y):  # type: ignore[no-untyped-def]  # numba types it
+    """Whether (x, y) lies outside every line and circle that the profile's segments are parts of: no contact then."""
+    for row in range(segments.shape[0]):
+        dx, dy = x - segments[row, 1], y - segments[row, 2]
+        if segments[row, 0] == 0.0:
+            if dy * segments[row, 3] < dx * segments[row, 4]:
+                return False
+        elif segments[row, 4] * (dx * dx + dy * dy - segments[row, 3] ** 2) < 0.0:
+            return False
+    return True
+
+
+@kernel()
 def project(segments, x, y):  # type: ignore[no-untyped-def]  # numba types it
     """Return (gap, normal x, normal y) of the nearest point of a profile to (x, y); negative gaps lie inside."""
     best = np.inf
@@ -132,6 +145,8 @@ def find_contacts(pair, turn, turn_old, half_sum, dt, nodes):  # type: ignore[no
             if r > 0.0:
                 cosine, sine = px / r, pz / r
             px = r
+        if clear_of(pair.segments, px, py):
+            continue
         gap, nx, ny = project(pair.segments, px, py)
         if not gap < 0.0:
             continue

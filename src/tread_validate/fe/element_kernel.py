@@ -82,19 +82,41 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
         fixed = geo.reshape(-1)[b * GEO_ROWS * n : (b + 1) * GEO_ROWS * n]
         kept = state.reshape(-1)[b * STATE_ROWS * n : (b + 1) * STATE_ROWS * n]
         # deformation gradient
-        for c in range(3):
-            for i in range(n):
-                x = 0.0
-                y = 0.0
-                z = 0.0
-                for a in range(8):
-                    d = w[(_U + 3 * a + c) * n + i]
-                    x += d * fixed[(GEO_B + a) * n + i]
-                    y += d * fixed[(GEO_B + 8 + a) * n + i]
-                    z += d * fixed[(GEO_B + 16 + a) * n + i]
-                w[(_F + 3 * c) * n + i] = x
-                w[(_F + 3 * c + 1) * n + i] = y
-                w[(_F + 3 * c + 2) * n + i] = z
+        for i in range(n):
+            f00 = 0.0
+            f01 = 0.0
+            f02 = 0.0
+            f10 = 0.0
+            f11 = 0.0
+            f12 = 0.0
+            f20 = 0.0
+            f21 = 0.0
+            f22 = 0.0
+            for a in range(8):
+                x = w[(_U + 3 * a) * n + i]
+                y = w[(_U + 3 * a + 1) * n + i]
+                z = w[(_U + 3 * a + 2) * n + i]
+                d0 = fixed[(GEO_B + a) * n + i]
+                d1 = fixed[(GEO_B + 8 + a) * n + i]
+                d2 = fixed[(GEO_B + 16 + a) * n + i]
+                f00 += x * d0
+                f01 += x * d1
+                f02 += x * d2
+                f10 += y * d0
+                f11 += y * d1
+                f12 += y * d2
+                f20 += z * d0
+                f21 += z * d1
+                f22 += z * d2
+            w[_F * n + i] = f00
+            w[(_F + 1) * n + i] = f01
+            w[(_F + 2) * n + i] = f02
+            w[(_F + 3) * n + i] = f10
+            w[(_F + 4) * n + i] = f11
+            w[(_F + 5) * n + i] = f12
+            w[(_F + 6) * n + i] = f20
+            w[(_F + 7) * n + i] = f21
+            w[(_F + 8) * n + i] = f22
         # hourglass amplitudes q[alpha, c] = (Gamma u - grad u . Gamma X) / 8
         for c in range(3):
             for i in range(n):
@@ -137,7 +159,9 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             w[(_F + 4) * n + i] += 1.0
             w[(_F + 8) * n + i] += 1.0
         # C = F^T F, det F and the invariants of U: I^2 = I_C + 2 II, II^2 = II_C + 2 III I by Newton's
-        # iteration from those of the stretch before
+        # iteration from those of the stretch before: two steps with the matrix of the first, which leave the product of
+        # their corrections, and more where that is no rounding
+        change = 0.0
         for i in range(n):
             f00 = w[_F * n + i]
             f01 = w[(_F + 1) * n + i]
@@ -162,8 +186,10 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             w[(_C + 4) * n + i] = c4
             w[(_C + 5) * n + i] = c5
             w[(_I + 6) * n + i] = jacobian
-            w[_V * n + i] = c0 + c1_ + c2
-            w[(_V + 1) * n + i] = (c0 * c1_ - c3 * c3) + (c0 * c2 - c4 * c4) + (c1_ * c2 - c5 * c5)
+            first_of_c = c0 + c1_ + c2
+            second_of_c = (c0 * c1_ - c3 * c3) + (c0 * c2 - c4 * c4) + (c1_ * c2 - c5 * c5)
+            w[_V * n + i] = first_of_c
+            w[(_V + 1) * n + i] = second_of_c
             su = STATE_U * n + i
             v0 = kept[su]
             v1 = kept[su + n]
@@ -171,9 +197,26 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
             v3 = kept[su + 3 * n]
             v4 = kept[su + 4 * n]
             v5 = kept[su + 5 * n]
-            w[(_V + 2) * n + i] = v0 + v1 + v2
-            w[(_V + 3) * n + i] = (v0 * v1 - v3 * v3) + (v0 * v2 - v4 * v4) + (v1 * v2 - v5 * v5)
+            trace = v0 + v1 + v2
+            minors = (v0 * v1 - v3 * v3) + (v0 * v2 - v4 * v4) + (v1 * v2 - v5 * v5)
+            x = trace * trace - 2.0 * minors - first_of_c
+            y = minors * minors - 2.0 * jacobian * trace - second_of_c
+            h = 0.5 / (trace * minors - jacobian)
+            h00 = h * minors
+            h10 = h * jacobian
+            h11 = h * trace
+            trace -= h00 * x + h * y
+            minors -= h10 * x + h11 * y
+            x = trace * trace - 2.0 * minors - first_of_c
+            y = minors * minors - 2.0 * jacobian * trace - second_of_c
+            t0 = h00 * x + h * y
+            t1 = h10 * x + h11 * y
+            w[(_V + 2) * n + i] = trace - t0
+            w[(_V + 3) * n + i] = minors - t1
+            change += t0 * t0 + t1 * t1
         for _ in range(20):
+            if not change > 1e-20:
+                break
             change = 0.0
             for i in range(n):
                 jacobian = w[(_I + 6) * n + i]
@@ -274,12 +317,17 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 kept[STATE_U * n : (STATE_U + 6) * n], w[(_I + 6) * n : (_I + 7) * n],
                 kept[STATE_STRAIN * n : (STATE_STRAIN + 6) * n], w[_D * n : (_D + 6) * n], w[_P * n : (_P + 6) * n],
             )  # fmt: skip
-        for c in range(6):
-            ratio = elastic[k, 2] if c < 5 else elastic[k, 3]
-            for i in range(n):
-                e = kept[(STATE_STRAIN + c) * n + i] + w[(_D + c) * n + i]
-                kept[(STATE_STRAIN + c) * n + i] = e
-                w[(_S + c) * n + i] = ratio * e + damp * w[(_D + c) * n + i]
+        if elastic[k, 2] == 0.0 and elastic[k, 3] == 0.0 and elastic[k, 5] == 0.0:
+            # all relaxes within the run: nothing asks for the strain
+            for i in range(6 * n):
+                w[_S * n + i] = damp * w[_D * n + i]
+        else:
+            for c in range(6):
+                ratio = elastic[k, 2] if c < 5 else elastic[k, 3]
+                for i in range(n):
+                    e = kept[(STATE_STRAIN + c) * n + i] + w[(_D + c) * n + i]
+                    kept[(STATE_STRAIN + c) * n + i] = e
+                    w[(_S + c) * n + i] = ratio * e + damp * w[(_D + c) * n + i]
         t = 0
         while t + 4 <= terms and same:
             # four terms at a time: the strain increment and the sum pass through memory once. Histories are taken as
@@ -299,6 +347,18 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 own[18 * n + i] = q3
                 w[_S * n + i] += (q0 + q1) + (q2 + q3)
             t += 4
+        if t + 2 <= terms and same:
+            own = h1[(b * terms + t) * 6 * n : (b * terms + t + 2) * 6 * n]
+            fade0, fade1 = decay[k, t], decay[k, t + 1]
+            grow0, grow1 = gain[k, t, 0], gain[k, t + 1, 0]
+            for i in range(6 * n):
+                d = w[_D * n + i]
+                q0 = fade0 * own[i] + grow0 * d
+                q1 = fade1 * own[6 * n + i] + grow1 * d
+                own[i] = q0
+                own[6 * n + i] = q1
+                w[_S * n + i] += q0 + q1
+            t += 2
         while t < terms:
             own = h1[(b * terms + t) * 6 * n : (b * terms + t + 1) * 6 * n]
             fade = decay[k, t]
@@ -402,55 +462,145 @@ def block_forces(first, last, dt, u, conn, geo, state, hist, decay, gain, elasti
                 w[(_P + 3 * c + 2) * n + i] = r0 * t4 + r1 * t5 + r2 * t2
         forces = out.reshape(-1)[b * 24 * n : (b + 1) * 24 * n]
         # nodal forces, the hourglass part with its offset folded into the stress
-        for c in range(3):
-            for i in range(n):
-                stiff = 0.125 * fixed[GEO_HOURGLASS * n + i]
-                q0 = stiff * w[(_Q + c) * n + i]
-                q1 = stiff * w[(_Q + 3 + c) * n + i]
-                q2 = stiff * w[(_Q + 6 + c) * n + i]
-                q3 = stiff * w[(_Q + 9 + c) * n + i]
-                g = GEO_G * n + i
-                px = (
-                    w[(_P + 3 * c) * n + i]
-                    - q0 * fixed[g]
-                    - q1 * fixed[g + 3 * n]
-                    - q2 * fixed[g + 6 * n]
-                    - q3 * fixed[g + 9 * n]
-                )
-                py = (
-                    w[(_P + 3 * c + 1) * n + i]
-                    - q0 * fixed[g + n]
-                    - q1 * fixed[g + 4 * n]
-                    - q2 * fixed[g + 7 * n]
-                    - q3 * fixed[g + 10 * n]
-                )
-                pz = (
-                    w[(_P + 3 * c + 2) * n + i]
-                    - q0 * fixed[g + 2 * n]
-                    - q1 * fixed[g + 5 * n]
-                    - q2 * fixed[g + 8 * n]
-                    - q3 * fixed[g + 11 * n]
-                )
-                hg0 = q0 + q1 + q2 - q3
-                hg1 = q0 - q1 - q2 + q3
-                hg2 = -q0 - q1 + q2 - q3
-                hg3 = -q0 + q1 - q2 + q3
-                hg4 = -q0 - q1 + q2 + q3
-                hg5 = -q0 + q1 - q2 - q3
-                hg6 = q0 + q1 + q2 + q3
-                hg7 = q0 - q1 - q2 - q3
-                gx = GEO_B * n + i
-                gy = (GEO_B + 8) * n + i
-                gz = (GEO_B + 16) * n + i
-                o = c * n + i
-                forces[o] = hg0 + px * fixed[gx] + py * fixed[gy] + pz * fixed[gz]
-                forces[o + 3 * n] = hg1 + px * fixed[gx + n] + py * fixed[gy + n] + pz * fixed[gz + n]
-                forces[o + 6 * n] = hg2 + px * fixed[gx + 2 * n] + py * fixed[gy + 2 * n] + pz * fixed[gz + 2 * n]
-                forces[o + 9 * n] = hg3 + px * fixed[gx + 3 * n] + py * fixed[gy + 3 * n] + pz * fixed[gz + 3 * n]
-                forces[o + 12 * n] = hg4 + px * fixed[gx + 4 * n] + py * fixed[gy + 4 * n] + pz * fixed[gz + 4 * n]
-                forces[o + 15 * n] = hg5 + px * fixed[gx + 5 * n] + py * fixed[gy + 5 * n] + pz * fixed[gz + 5 * n]
-                forces[o + 18 * n] = hg6 + px * fixed[gx + 6 * n] + py * fixed[gy + 6 * n] + pz * fixed[gz + 6 * n]
-                forces[o + 21 * n] = hg7 + px * fixed[gx + 7 * n] + py * fixed[gy + 7 * n] + pz * fixed[gz + 7 * n]
+        for i in range(n):
+            stiff = 0.125 * fixed[GEO_HOURGLASS * n + i]
+            g = GEO_G * n + i
+            q00 = stiff * w[_Q * n + i]
+            q10 = stiff * w[(_Q + 3) * n + i]
+            q20 = stiff * w[(_Q + 6) * n + i]
+            q30 = stiff * w[(_Q + 9) * n + i]
+            q01 = stiff * w[(_Q + 1) * n + i]
+            q11 = stiff * w[(_Q + 4) * n + i]
+            q21 = stiff * w[(_Q + 7) * n + i]
+            q31 = stiff * w[(_Q + 10) * n + i]
+            q02 = stiff * w[(_Q + 2) * n + i]
+            q12 = stiff * w[(_Q + 5) * n + i]
+            q22 = stiff * w[(_Q + 8) * n + i]
+            q32 = stiff * w[(_Q + 11) * n + i]
+            p00 = (
+                w[_P * n + i]
+                - q00 * fixed[g]
+                - q10 * fixed[g + 3 * n]
+                - q20 * fixed[g + 6 * n]
+                - q30 * fixed[g + 9 * n]
+            )
+            p01 = (
+                w[(_P + 1) * n + i]
+                - q00 * fixed[g + n]
+                - q10 * fixed[g + 4 * n]
+                - q20 * fixed[g + 7 * n]
+                - q30 * fixed[g + 10 * n]
+            )
+            p02 = (
+                w[(_P + 2) * n + i]
+                - q00 * fixed[g + 2 * n]
+                - q10 * fixed[g + 5 * n]
+                - q20 * fixed[g + 8 * n]
+                - q30 * fixed[g + 11 * n]
+            )
+            s0 = q00 + q10
+            m0 = q00 - q10
+            e0 = q20 + q30
+            d0 = q20 - q30
+            p10 = (
+                w[(_P + 3) * n + i]
+                - q01 * fixed[g]
+                - q11 * fixed[g + 3 * n]
+                - q21 * fixed[g + 6 * n]
+                - q31 * fixed[g + 9 * n]
+            )
+            p11 = (
+                w[(_P + 4) * n + i]
+                - q01 * fixed[g + n]
+                - q11 * fixed[g + 4 * n]
+                - q21 * fixed[g + 7 * n]
+                - q31 * fixed[g + 10 * n]
+            )
+            p12 = (
+                w[(_P + 5) * n + i]
+                - q01 * fixed[g + 2 * n]
+                - q11 * fixed[g + 5 * n]
+                - q21 * fixed[g + 8 * n]
+                - q31 * fixed[g + 11 * n]
+            )
+            s1 = q01 + q11
+            m1 = q01 - q11
+            e1 = q21 + q31
+            d1 = q21 - q31
+            p20 = (
+                w[(_P + 6) * n + i]
+                - q02 * fixed[g]
+                - q12 * fixed[g + 3 * n]
+                - q22 * fixed[g + 6 * n]
+                - q32 * fixed[g + 9 * n]
+            )
+            p21 = (
+                w[(_P + 7) * n + i]
+                - q02 * fixed[g + n]
+                - q12 * fixed[g + 4 * n]
+                - q22 * fixed[g + 7 * n]
+                - q32 * fixed[g + 10 * n]
+            )
+            p22 = (
+                w[(_P + 8) * n + i]
+                - q02 * fixed[g + 2 * n]
+                - q12 * fixed[g + 5 * n]
+                - q22 * fixed[g + 8 * n]
+                - q32 * fixed[g + 11 * n]
+            )
+            s2 = q02 + q12
+            m2 = q02 - q12
+            e2 = q22 + q32
+            d2 = q22 - q32
+            gx = GEO_B * n + i
+            bx = fixed[gx]
+            by = fixed[gx + 8 * n]
+            bz = fixed[gx + 16 * n]
+            forces[i] = (s0 + d0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + n] = (s1 + d1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 2 * n] = (s2 + d2) + p20 * bx + p21 * by + p22 * bz
+            bx = fixed[gx + n]
+            by = fixed[gx + 9 * n]
+            bz = fixed[gx + 17 * n]
+            forces[i + 3 * n] = (m0 - d0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + 4 * n] = (m1 - d1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 5 * n] = (m2 - d2) + p20 * bx + p21 * by + p22 * bz
+            bx = fixed[gx + 2 * n]
+            by = fixed[gx + 10 * n]
+            bz = fixed[gx + 18 * n]
+            forces[i + 6 * n] = (d0 - s0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + 7 * n] = (d1 - s1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 8 * n] = (d2 - s2) + p20 * bx + p21 * by + p22 * bz
+            bx = fixed[gx + 3 * n]
+            by = fixed[gx + 11 * n]
+            bz = fixed[gx + 19 * n]
+            forces[i + 9 * n] = (-m0 - d0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + 10 * n] = (-m1 - d1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 11 * n] = (-m2 - d2) + p20 * bx + p21 * by + p22 * bz
+            bx = fixed[gx + 4 * n]
+            by = fixed[gx + 12 * n]
+            bz = fixed[gx + 20 * n]
+            forces[i + 12 * n] = (e0 - s0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + 13 * n] = (e1 - s1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 14 * n] = (e2 - s2) + p20 * bx + p21 * by + p22 * bz
+            bx = fixed[gx + 5 * n]
+            by = fixed[gx + 13 * n]
+            bz = fixed[gx + 21 * n]
+            forces[i + 15 * n] = (-m0 - e0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + 16 * n] = (-m1 - e1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 17 * n] = (-m2 - e2) + p20 * bx + p21 * by + p22 * bz
+            bx = fixed[gx + 6 * n]
+            by = fixed[gx + 14 * n]
+            bz = fixed[gx + 22 * n]
+            forces[i + 18 * n] = (s0 + e0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + 19 * n] = (s1 + e1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 20 * n] = (s2 + e2) + p20 * bx + p21 * by + p22 * bz
+            bx = fixed[gx + 7 * n]
+            by = fixed[gx + 15 * n]
+            bz = fixed[gx + 23 * n]
+            forces[i + 21 * n] = (m0 - e0) + p00 * bx + p01 * by + p02 * bz
+            forces[i + 22 * n] = (m1 - e1) + p10 * bx + p11 * by + p12 * bz
+            forces[i + 23 * n] = (m2 - e2) + p20 * bx + p21 * by + p22 * bz
     worst = 1e30
     for i in range(n):
         worst = min(worst, w[_W * n + i])

@@ -12,6 +12,8 @@ from .contact_kernel import nodal_normals
 from .element_kernel import LANES
 from .kernel_data import FIXED, VELOCITY
 
+ROW = np.uint64(LANES)  # unsigned: indices that cannot be negative need not be looked at
+
 
 @kernel()
 def gather_forces(first, last, element_force, slots, slot_start, force):  # type: ignore[no-untyped-def]  # numba types it
@@ -22,10 +24,10 @@ def gather_forces(first, last, element_force, slots, slot_start, force):  # type
         y = 0.0
         z = 0.0
         for row in range(slot_start[node], slot_start[node + 1]):
-            at = slots[row]
+            at = np.uint64(slots[row])
             x += f[at]
-            y += f[at + LANES]
-            z += f[at + 2 * LANES]
+            y += f[at + ROW]
+            z += f[at + ROW + ROW]
         force[3 * node] = x
         force[3 * node + 1] = y
         force[3 * node + 2] = z
