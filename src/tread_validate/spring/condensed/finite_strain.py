@@ -11,8 +11,10 @@ from ...units import MM
 from .body import Body, BodySettings, FreeShape, make_body
 from .condense import assemble
 from .element import IncompatibleField, lame_constants
-from .inputs import SecondOrder
+from .inputs import NO_FOLD, Fold, SecondOrder
 from .kept import Arrays
+from .symmetry import element_partners, folds, whole_fold
+from .symmetry import gathered as folded_rows
 
 Array = NDArray[np.float64]
 
@@ -36,20 +38,57 @@ def second_order_arrays(block: Block, shape: FreeShape, body: Body, poissons_rat
     near, share = neighbours(coarse, body)
     return {
         "gather": gathered(near, share, body.area, coarse.nodes_per_layer).T.astype(np.float32, order="C"),
-        **shorts("gradient", stretch.T),
-        **shorts("spread", -np.linalg.solve(stiffness, loads.T).T),
+        **parted(coarse, stretch, -np.linalg.solve(stiffness, loads.T).T, bend @ _knots(coarse.knots, body.knots)),
         "near": near,
         "share": share,
-        "bend": (bend @ _knots(coarse.knots, body.knots)).astype(np.float32),
+    }
+
+
+def parted(coarse: Body | None, stretch: Array, spread: Array, bend: Array) -> Arrays:
+    """Return the arrays of the even and odd motions of a coarse body, which take half the memory.
+
+    `stretch` (9 e, 3 c) are gradients for unit displacements of its face, `spread` (9 e, 3 c) its face's displacements
+    for unit stresses, `bend` (9 e, 2 k) the gradients of the mount's motions. Without a body, or where it is not
+    symmetric, all motions are even and no element has an image.
+    """
+    both = None if coarse is None else folds(coarse)
+    if coarse is None or both is None:
+        even, odd = whole_fold(stretch.shape[1]), NO_FOLD
+        one = image = np.arange(stretch.shape[0] // 9)
+        flip = np.zeros(0)
+    else:
+        even, odd = both
+        turn = np.array([-1.0, 1.0, 1.0 if coarse.half else -1.0])
+        flip = (turn[:, None] * turn).ravel()
+        image = element_partners(coarse)
+        one = np.flatnonzero(np.arange(image.size) <= image)
+        image = image[one]
+    each = [matrix.reshape(9, -1, matrix.shape[1])[:, one].reshape(9 * one.size, -1) for matrix in (stretch, spread)]
+    # the stress of an element that is its own image is met twice
+    share = np.tile(np.where(one == image, 0.5, 1.0), 9) if flip.size else np.ones(9 * one.size)
+    order = np.concatenate([one, image]) if flip.size else one
+    return {
+        **shorts("gradient", *(folded_rows(each[0].T, fold) for fold in (even, odd))),
+        **shorts("spread", *((folded_rows(each[1].T, fold) * share).T for fold in (even, odd))),
+        **{
+            f"{name}_{part}": getattr(fold, part)
+            for name, fold in (("even", even), ("odd", odd))
+            for part in fold._fields
+        },
+        "flip": flip.astype(np.float32),
+        "bend": bend.reshape(9, -1, bend.shape[1])[:, order].reshape(9 * order.size, -1).astype(np.float32),
     }
 
 
 def second_order_of(arrays: Arrays, body: Body, poissons_ratio: float) -> SecondOrder:
     """Return the arrays as the kernels take them."""
-    gather, gradient, spread, near, share = (arrays[name] for name in ("gather", "gradient", "spread", "near", "share"))
+    even, odd = (Fold(*(arrays[f"{name}_{part}"] for part in Fold._fields)) for name in ("even", "odd"))
     lame, shear = lame_constants(1.0, poissons_ratio)
-    units = float(arrays["gradient_unit"][0]), float(arrays["spread_unit"][0])
-    return SecondOrder(np.ascontiguousarray(body.face), gather, gradient, spread, near, share, lame, shear, *units)
+    return SecondOrder(
+        np.ascontiguousarray(body.face), arrays["gather"], even, odd, arrays["gradient_even"], arrays["gradient_odd"],
+        arrays["spread_even"], arrays["spread_odd"], arrays["flip"], arrays["near"], arrays["share"], lame, shear,
+        float(arrays["gradient_unit"][0]), float(arrays["spread_unit"][0]),
+    )  # fmt: skip
 
 
 def division(block: Block) -> BodySettings:
@@ -107,10 +146,14 @@ def gathered(near: NDArray[np.int64], share: Array, area: Array, count: int) -> 
     return np.asarray(np.linalg.pinv(root[:, None] * spread) * root)
 
 
-def shorts(name: str, matrix: Array) -> Arrays:
-    """Return a matrix as 16-bit numbers, and their unit."""
-    unit = float(np.abs(matrix).max()) / 32767.0
-    return {name: np.round(matrix / unit).astype(np.int16, order="C"), f"{name}_unit": np.array([unit])}
+def shorts(name: str, even: Array, odd: Array) -> Arrays:
+    """Return two matrices as 16-bit numbers, and their unit."""
+    unit = max(float(np.abs(part).max(initial=0.0)) for part in (even, odd)) / 32767.0
+    found = {
+        f"{name}_{which}": np.round(part / unit).astype(np.int16, order="C")
+        for which, part in (("even", even), ("odd", odd))
+    }
+    return {**found, f"{name}_unit": np.array([unit])}
 
 
 def _solved(body: Body, poissons_ratio: float, given: Array, where: slice) -> Array:

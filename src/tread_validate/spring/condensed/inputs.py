@@ -35,6 +35,28 @@ class Solid(NamedTuple):
     relaxation_times: Array
 
 
+class Fold(NamedTuple):
+    """Motions of a symmetric face that its symmetry keeps apart from all others: the even, or the odd ones.
+
+    Attributes
+    ----------
+    left, right : (k,) arrays of int
+        Degrees of freedom that move together; equal where one moves by itself.
+    own, other : (k,) arrays
+        What they do in unit motion, as a sum where they are equal: the motions are orthonormal.
+    """
+
+    left: Integers
+    right: Integers
+    own: Array
+    other: Array
+
+
+_EMPTY = np.zeros(0, dtype=np.int64)
+NO_FOLD = Fold(_EMPTY, _EMPTY, np.zeros(0), np.zeros(0))
+"""Of a face without symmetry."""
+
+
 class SecondOrder(NamedTuple):
     """What finite strain and rotation do to the unloaded face, see `second_order`; without elements: small strain.
 
@@ -44,12 +66,16 @@ class SecondOrder(NamedTuple):
         Stress-free positions of the face's nodes.
     gather : (n, c) array
         Displacements of the face's nodes -> those of the c nodes of a coarser face; one row a node of the face.
-    gradient : (3 c, 9 e) array, 1/m
-        Displacement gradients of e elements (component by component) for unit displacement of each of the coarser
-        face's; one row a displacement, in units of `gradient_unit`.
-    spread : (9 e, 3 c) array, m per (stress over E)
-        Displacements of the unloaded coarser face for unit stresses in the elements; one row a stress, in units of
-        `spread_unit`.
+    even, odd : Fold
+        Motions of the coarser face; without symmetry all are even.
+    gradient_even, gradient_odd : (k, 9 m) arrays, 1/m
+        Displacement gradients of m elements (component by component), of which the e elements are these and their
+        images, for unit size of each of the k motions; in units of `gradient_unit`.
+    spread_even, spread_odd : (9 m, k) arrays, m per (stress over E)
+        Size of each motion of the unloaded coarser face for unit stresses in the elements, alike (even) or opposite
+        (odd) in their images; in units of `spread_unit`.
+    flip : (9,) array
+        Sign of each component in the image of an even motion; (0,) without symmetry.
     near, share : (n, 4) arrays
         Coarser nodes around a node of the face, and their weights.
     lame, shear : float
@@ -61,8 +87,13 @@ class SecondOrder(NamedTuple):
 
     free: Array
     gather: Singles
-    gradient: Shorts
-    spread: Shorts
+    even: Fold
+    odd: Fold
+    gradient_even: Shorts
+    gradient_odd: Shorts
+    spread_even: Shorts
+    spread_odd: Shorts
+    flip: Singles
     near: Integers
     share: Array
     lame: float
@@ -73,8 +104,8 @@ class SecondOrder(NamedTuple):
 
 _NONE, _NO_SHORTS = np.zeros((0, 0), dtype=np.float32), np.zeros((0, 0), dtype=np.int16)
 SMALL_STRAIN = SecondOrder(
-    np.zeros((0, 3)), _NONE, _NO_SHORTS, _NO_SHORTS, np.zeros((0, 4), dtype=np.int64), np.zeros((0, 4)),
-    0.0, 0.0, 0.0, 0.0,
+    np.zeros((0, 3)), _NONE, NO_FOLD, NO_FOLD, _NO_SHORTS, _NO_SHORTS, _NO_SHORTS, _NO_SHORTS, _NONE[0:0].ravel(),
+    np.zeros((0, 4), dtype=np.int64), np.zeros((0, 4)), 0.0, 0.0, 0.0, 0.0,
 )  # fmt: skip
 """Nothing of second order."""
 
@@ -187,28 +218,8 @@ class Scratch(NamedTuple):
     coarse: Singles
     third: Singles
     gradient: Singles
-
-
-class Fold(NamedTuple):
-    """Motions of a symmetric face that its symmetry keeps apart from all others: the even, or the odd ones.
-
-    Attributes
-    ----------
-    left, right : (k,) arrays of int
-        Degrees of freedom that move together; equal where one moves by itself.
-    own, other : (k,) arrays
-        What they do in unit motion, as a sum where they are equal: the motions are orthonormal.
-    """
-
-    left: Integers
-    right: Integers
-    own: Array
-    other: Array
-
-
-_EMPTY = np.zeros(0, dtype=np.int64)
-NO_FOLD = Fold(_EMPTY, _EMPTY, np.zeros(0), np.zeros(0))
-"""Of a face without symmetry."""
+    even: Singles
+    odd: Singles
 
 
 class Operator(NamedTuple):
@@ -269,10 +280,11 @@ def fresh_state(nodes: int, terms: int) -> FaceState:
 
 def scratch(nodes: int, terms: int, second: SecondOrder = SMALL_STRAIN) -> Scratch:
     """Return work space for `nodes` nodes and `terms` Prony terms."""
-    coarse, elements = second.gradient.shape
+    coarse, elements = second.even.left.size + second.odd.left.size, second.gradient_even.shape[1]
     return Scratch(
         np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 3)), np.zeros((nodes, 2)),
         np.zeros(nodes, dtype=np.int64), np.zeros(terms), np.zeros((nodes, 3)), np.zeros((3, nodes), dtype=np.float32),
         np.zeros(coarse, dtype=np.float32), np.zeros(coarse // 3, dtype=np.float32),
+        np.zeros(elements * (2 if second.flip.size else 1), dtype=np.float32), np.zeros(elements, dtype=np.float32),
         np.zeros(elements, dtype=np.float32),
     )  # fmt: skip

@@ -16,7 +16,7 @@ from ..stiffness import StiffnessRatios
 from .body import Array, Body, FreeShape
 from .condense import FaceStiffness, assemble
 from .element import IncompatibleField
-from .finite_strain import PER_HEIGHT, gathered, gradients, shorts
+from .finite_strain import PER_HEIGHT, gathered, gradients, parted
 from .kept import Arrays
 from .mesh_body import MeshFile, body_of_mesh, cells_of, face_grid, halved, hexahedra
 
@@ -73,11 +73,9 @@ def mesh_second_order(body: Body, poissons_ratio: float, height: float) -> Array
     stiffness = motions.T @ (matrix @ motions)
     return {
         "gather": gathered(near, share, body.area, count).T.astype(np.float32, order="C"),
-        **shorts("gradient", stretch.T),
-        **shorts("spread", -(np.linalg.pinv(stiffness, hermitian=True) @ loads.T).T),
+        **parted(None, stretch, -(np.linalg.pinv(stiffness, hermitian=True) @ loads.T).T, bend),
         "near": near,
         "share": share,
-        "bend": bend.astype(np.float32),
     }
 
 

@@ -22,7 +22,7 @@ import math
 import numpy as np
 
 from ...kernels import kernel
-from .inputs import STICK, FaceState, Pose, Scene, Scratch, SecondOrder, Singles
+from .inputs import STICK, FaceState, Fold, Pose, Scene, Scratch, SecondOrder, Shorts, Singles
 from .products import combine
 from .touch import turn_of
 
@@ -62,16 +62,7 @@ def shifted(pose: Pose, scene: Scene, state: FaceState, dt: float, work: Scratch
             for c in range(3):
                 going = state.w[i, c] + state.shift[i, c] + ahead * (state.rate[i, c] + state.flow[i, c])
                 work.moved[c, i] = pose.unloaded[i, c] + going - second.free[i, c]
-    _strain(pose, second, work)
-    _stress(second, work.gradient)
-    work.gradient[:] *= np.float32(second.spread_unit)
-    combine(second.spread, work.gradient, work.coarse)
-    for i in range(state.shift.shape[0]):
-        for c in range(3):
-            moved = 0.0
-            for k in range(4):
-                moved += second.share[i, k] * work.coarse[3 * second.near[i, k] + c]
-            work.unloaded[i, c] = pose.unloaded[i, c] + moved
+    shift(pose, second, work)
     return Pose(pose.x, pose.y, pose.angle, work.unloaded, pose.bend, pose.rise)
 
 
@@ -101,15 +92,85 @@ def rest(pose: Pose, scene: Scene, state: FaceState, work: Scratch) -> Pose:
 
 
 @kernel()
+def shift(pose: Pose, second: SecondOrder, work: Scratch) -> None:
+    """Write the face of `pose` moved by v to `work.unloaded`, for displacements `work.moved` of the face."""
+    _strain(pose, second, work)
+    _stress(second, work.gradient)
+    _answer(second, work)
+    for i in range(second.near.shape[0]):
+        for c in range(3):
+            moved = 0.0
+            for k in range(4):
+                moved += second.share[i, k] * work.coarse[3 * second.near[i, k] + c]
+            work.unloaded[i, c] = pose.unloaded[i, c] + moved
+
+
+@kernel()
 def _strain(pose: Pose, second: SecondOrder, work: Scratch) -> None:
-    """Write the displacement gradients of the elements to `work.gradient`."""
+    """Write the displacement gradients of the elements, and of their images, to `work.gradient`."""
     for c in range(3):
         combine(second.gather, work.moved[c], work.third)
         for k in range(work.third.size):
             work.coarse[3 * k + c] = work.third[k] * np.float32(second.gradient_unit)
-    combine(second.gradient, work.coarse, work.gradient)
+    combine(second.gradient_even, _sizes(second.even, work.coarse), work.even)
+    if second.flip.size == 0:
+        work.gradient[:] = work.even
+    else:
+        combine(second.gradient_odd, _sizes(second.odd, work.coarse), work.odd)
+        _unfold(second.flip, work.even, work.odd, work.gradient)
     if pose.bend.size > 0:
         work.gradient[:] += pose.bend
+
+
+@kernel()
+def _answer(second: SecondOrder, work: Scratch) -> None:
+    """Write v of the coarser face for the stresses `work.gradient` to `work.coarse`."""
+    work.gradient[:] *= np.float32(second.spread_unit)
+    work.coarse[:] = np.float32(0.0)
+    if second.flip.size == 0:
+        work.even[:] = work.gradient
+    else:
+        _refold(second.flip, work.gradient, work.even, work.odd)
+        _add_motions(second.spread_odd, second.odd, work.odd, work.coarse)
+    _add_motions(second.spread_even, second.even, work.even, work.coarse)
+
+
+@kernel()
+def _sizes(fold: Fold, vector: Singles) -> Singles:
+    """Return the size of each motion of a fold in a vector (3 c,)."""
+    sizes = np.empty(fold.left.size, dtype=np.float32)
+    for k in range(sizes.size):
+        sizes[k] = fold.own[k] * vector[fold.left[k]] + fold.other[k] * vector[fold.right[k]]
+    return sizes
+
+
+@kernel()
+def _add_motions(spread: Shorts, fold: Fold, stress: Singles, vector: Singles) -> None:
+    sizes = np.empty(fold.left.size, dtype=np.float32)
+    combine(spread, stress, sizes)
+    for k in range(sizes.size):
+        vector[fold.left[k]] += np.float32(fold.own[k]) * sizes[k]
+        vector[fold.right[k]] += np.float32(fold.other[k]) * sizes[k]
+
+
+@kernel()
+def _unfold(flip: Singles, even: Singles, odd: Singles, both: Singles) -> None:
+    m = even.size // 9
+    for c in range(9):
+        for k in range(m):
+            one, other = even[c * m + k], odd[c * m + k]
+            both[2 * c * m + k] = one + other
+            both[(2 * c + 1) * m + k] = flip[c] * (one - other)
+
+
+@kernel()
+def _refold(flip: Singles, both: Singles, even: Singles, odd: Singles) -> None:
+    m = even.size // 9
+    for c in range(9):
+        for k in range(m):
+            one, image = both[2 * c * m + k], flip[c] * both[(2 * c + 1) * m + k]
+            even[c * m + k] = one + image
+            odd[c * m + k] = one - image
 
 
 @kernel(reorder=True)

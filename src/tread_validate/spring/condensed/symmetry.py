@@ -50,10 +50,25 @@ def partners(body: Body) -> Integers | None:
     order, mirrored = np.lexsort(face.T), np.lexsort((face * turn).T)
     partner = np.empty(face.shape[0], dtype=np.int64)
     partner[order] = mirrored
-    whole = (np.arange(body.layers + 1)[:, None] * face.shape[0] + partner).ravel()
+    whole = _whole(body, partner)
     same = np.allclose(body.nodes[whole], body.nodes * turn, rtol=0.0, atol=2e-9)
     same = same and np.array_equal(_sorted(body.elements), _sorted(whole[body.elements]))
     return partner if same else None
+
+
+def element_partners(body: Body) -> Integers:
+    """Return the mirror image of each element of a symmetric body."""
+    partner = partners(body)
+    assert partner is not None
+    mirrored = np.sort(_whole(body, partner)[body.elements], axis=1)
+    image = np.empty(body.elements.shape[0], dtype=np.int64)
+    image[np.lexsort(mirrored.T)] = np.lexsort(np.sort(body.elements, axis=1).T)
+    return image
+
+
+def _whole(body: Body, partner: Integers) -> Integers:
+    """Return the mirror image of every node of a body."""
+    return np.asarray((np.arange(body.layers + 1)[:, None] * partner.size + partner).ravel(), dtype=np.int64)
 
 
 def whole_fold(size: int) -> Fold:
