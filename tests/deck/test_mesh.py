@@ -134,14 +134,14 @@ def test_mesh_that_would_fill_the_memory_is_refused(cases: tuple[Case, ...]) -> 
 
 
 def test_elements_are_short_in_the_direction_of_travel(cases: tuple[Case, ...]) -> None:
-    """`mesh_of_path` of the study: 0.5 mm in the direction of travel on the rig, 1 mm on the belt; 2 mm across."""
+    """`mesh_of_path` of the study: 0.625 by 1.667 mm (along and across travel) on the rig, 1 by 2 mm on the belt."""
     for case in cases:
         mesh = block_mesh(case.block, case.deck)
-        columns, across = (50, 10) if case.path.family == "rig" else (25, 10)
+        columns, across = (40, 12) if case.path.family == "rig" else (25, 10)
         across //= 2 if case.block.shape == "rectangle" else 1
         assert mesh.elements.shape[0] == columns * across * case.deck.layers
 
 
 def test_a_mesh_study_keeps_the_shape_of_the_elements(rig_case: Case) -> None:
     fine = with_mesh(rig_case, {"element_size_mm": 1.0, "layers": 2})
-    assert block_mesh(fine.block, fine.deck).elements.shape[0] == 100 * 10 * 2
+    assert block_mesh(fine.block, fine.deck).elements.shape[0] == 67 * 10 * 2
