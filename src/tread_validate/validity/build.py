@@ -85,7 +85,10 @@ def _worth(points: Sequence[Point], rows: Sequence[Row]) -> dict[str, Any]:
         for (model, quantity), found in coverage(rows).items()
     }  # fmt: skip
     widened = {
-        model: {each: round(value, 3) for each, value in factors(points, model).items()} for model in points[0].errors
+        model: {
+            name: {each: round(value, 3) for each, value in own.items()} for name, own in factors(points, model).items()
+        }
+        for model in points[0].errors
     }
     return {"fitted": len(fitted(points)), "held_out": len(held_out(points)), "factors": widened, "coverage": shares}
 

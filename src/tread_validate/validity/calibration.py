@@ -2,8 +2,8 @@
 
 Two points in three are the rule's neighbours. Each of them is predicted from the others, and the factor on its local
 scale is the conformal quantile (Lei et al., J. Am. Stat. Assoc. 113 (2018) 1094-1111, locally weighted): the
-ceil(0.9 (n + 1))-th smallest of n ratios of error to scale. Every third point takes no part in it and says what the
-limits are worth.
+ceil(0.9 (n + 1))-th smallest of n ratios of error to scale, by itself in each of `CLASSES` (Vovk, Mach. Learn. 92
+(2013) 349-376). Every third point takes no part in it and says what the limits are worth.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .groups import coordinates
+from ..spring.cautions import STRUCK
+from .groups import Groups, coordinates, strike
 from .table import ERRORS, Point
 
 Array = NDArray[np.float64]
@@ -26,6 +27,12 @@ INSIDE = 0.9
 """Share of the errors that are to lie below the limit."""
 EVERY = 3
 """Every third point of the design is held out."""
+TIGHT = 6.0
+"""R/l of a belt's arc below which errors change faster from point to point than elsewhere."""
+CLASSES = ("tight arcs", "elsewhere")
+"""Classes with a factor of their own."""
+FEWEST = 9
+"""Ratios that a quantile of nine in ten takes; a class with fewer has the factor of all."""
 LEAST_SCALE = 0.002
 """Errors below this share are not told apart: the meshes' limit is not known better."""
 
@@ -43,6 +50,16 @@ def fitted(points: Sequence[Point]) -> list[Point]:
 def held_out(points: Sequence[Point]) -> list[Point]:
     """Return the points that take no part in the rule."""
     return [point for point in points if number_of(point) % EVERY == EVERY - 1]
+
+
+def basis_of(points: Sequence[Point]) -> list[Point]:
+    """Return the fitted points that may be neighbours: those at which the road does not strike the face."""
+    return [point for point in fitted(points) if strike(point.groups) <= STRUCK]
+
+
+def class_of(kind: str, groups: Groups) -> str:
+    """Return which of `CLASSES` a place belongs to."""
+    return CLASSES[0] if kind.startswith("belt") and groups.radius < TIGHT else CLASSES[1]
 
 
 @dataclass(frozen=True)
@@ -101,10 +118,13 @@ def _of_kind(points: Sequence[Point], kind: str, model: str) -> list[Point]:
     return [point for point in points if point.kind == kind and model in point.errors]
 
 
-def factors(points: Sequence[Point], model: str) -> dict[str, float]:
-    """Return the factor on the local scale for each of `ERRORS`, from the fitted points, one left out at a time."""
-    basis = fitted(points)
-    ratios: dict[str, list[float]] = {each: [] for each in ERRORS}
+def factors(points: Sequence[Point], model: str) -> dict[str, dict[str, float]]:
+    """Return the factor on the local scale in each of `CLASSES` for each of `ERRORS`.
+
+    From the points of the rule, one left out at a time.
+    """
+    basis = basis_of(points)
+    ratios: dict[str, dict[str, list[float]]] = {name: {each: [] for each in ERRORS} for name in CLASSES}
     for kind in dict.fromkeys(point.kind for point in basis):
         known = _of_kind(basis, kind, model)
         if len(known) <= NEAREST:
@@ -112,9 +132,14 @@ def factors(points: Sequence[Point], model: str) -> dict[str, float]:
         size = ranges(known)[2]
         for point in known:
             near = neighbours(coordinates(point.groups), [each for each in known if each is not point], size)
+            own = ratios[class_of(kind, point.groups)]
             for each in ERRORS:
-                ratios[each].append(abs(point.errors[model][each]) / near.scale(model, each))
-    return {each: conformal(found) for each, found in ratios.items()}
+                own[each].append(abs(point.errors[model][each]) / near.scale(model, each))
+    pooled = {each: [ratio for name in CLASSES for ratio in ratios[name][each]] for each in ERRORS}
+    return {
+        name: {each: conformal(own[each] if len(own[each]) >= FEWEST else pooled[each]) for each in ERRORS}
+        for name, own in ratios.items()
+    }
 
 
 @dataclass(frozen=True)

@@ -58,6 +58,11 @@ class Groups:
     skew: float
 
 
+def strike(groups: Groups) -> float:
+    """Return V sqrt(2 D/R), at which the road meets the face, over c_s D/h, at which shear waves carry strain away."""
+    return groups.speed * math.sqrt(2.0 / (groups.interference * groups.radius * groups.length))
+
+
 LINEAR = ("friction", "creep", "skew")
 """Groups that are compared as they are; the others by their logarithm, Poisson's ratio by that of 1 - 2 nu."""
 NAMES = tuple(field.name for field in fields(Groups))

@@ -8,9 +8,10 @@ from functools import cache
 
 from ..friction import Coulomb
 from ..history import History
+from ..spring.cautions import STRUCK
 from ..study import Case
-from .calibration import NEAREST, factors, fitted, neighbours, ranges
-from .groups import NAMES, Groups, coordinates, groups_of, kind_of
+from .calibration import NEAREST, basis_of, class_of, factors, neighbours, ranges
+from .groups import NAMES, Groups, coordinates, groups_of, kind_of, strike
 from .made_by import made_by_other_code
 from .table import ERRORS, Point, committed
 
@@ -69,14 +70,14 @@ class Expectation:
 
 
 class Rule:
-    """The rule of a map's points: those that are not held out, and how far their errors are widened."""
+    """The rule of a map's points: those that may be neighbours, and how far their errors are widened."""
 
     def __init__(self, points: Sequence[Point]) -> None:
-        self.basis = fitted(points)
-        self._factors: dict[str, dict[str, float]] = {}
+        self.basis = basis_of(points)
+        self._factors: dict[str, dict[str, dict[str, float]]] = {}
 
-    def factors(self, model: str) -> dict[str, float]:
-        """Return the factor on the local scale for each of `ERRORS`."""
+    def factors(self, model: str) -> dict[str, dict[str, float]]:
+        """Return the factor on the local scale by class, for each of `ERRORS`."""
         if model not in self._factors:
             self._factors[model] = factors(self.basis, model)
         return self._factors[model]
@@ -92,7 +93,7 @@ class Rule:
         here = groups_of(case)
         near = neighbours(coordinates(here), known, ranges(known)[2])
         expected = {each: near.expected(model, each) for each in ERRORS}
-        widened = self.factors(model)
+        widened = self.factors(model)[class_of(kind, here)]
         outside = (*outside, *_beyond(case, here, known))
         return Expectation(
             normal=expected["normal"],
@@ -114,6 +115,8 @@ def _beyond(case: Case, groups: Groups, known: Sequence[Point]) -> list[str]:
     found = []
     if not steady and abs(groups.creep) > SLIDES:
         found.append("much slip under a friction law that depends on it")
+    if strike(groups) > STRUCK:
+        found.append("the road strikes the face")
     low, high, size = ranges(known)
     for name, at, least, most, range_ in zip(NAMES, coordinates(groups), low, high, size, strict=True):
         slack = SLACK * range_

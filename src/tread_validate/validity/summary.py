@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .calibration import Coverage
+from .calibration import CLASSES, Coverage
 from .table import ERRORS, Point
 
 HEADS = ("peak N", "impulse of N", "peaks of T")
@@ -60,7 +60,8 @@ def _worth(record: Mapping[str, Any]) -> list[str]:
         for each in ERRORS:
             found = record["coverage"].get(f"{model} {each}")
             share = "none inside the map" if found is None else str(Coverage(found["below"], found["of"]))
-            cells.append(f"{share}; factor {factors[each]:.2g}")
+            widened = ", ".join(f"{factors[name][each]:.2g} {name}" for name in reversed(CLASSES))
+            cells.append(f"{share}; factor {widened}")
         lines.append(f"| `{model}` | " + " | ".join(cells) + " |")
     return [
         f"The limit for nine in ten, calibrated on {record['fitted']} points and tried on {record['held_out']} others. "

@@ -9,12 +9,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tread_validate.errors import InputError
+from tread_validate.spring.cautions import STRUCK
 from tread_validate.study import load_study
 from tread_validate.validity import store
 from tread_validate.validity.build import tried
-from tread_validate.validity.calibration import Coverage, conformal, coverage, factors, fitted, held_out
+from tread_validate.validity.calibration import (
+    CLASSES,
+    TIGHT,
+    Coverage,
+    conformal,
+    coverage,
+    factors,
+    fitted,
+    held_out,
+)
 from tread_validate.validity.design import RANGES, design
-from tread_validate.validity.groups import coordinates, groups_of, kind_of
+from tread_validate.validity.groups import coordinates, groups_of, kind_of, strike
 from tread_validate.validity.points import MESHES, MODELS
 from tread_validate.validity.rule import NEAREST, expected_error
 from tread_validate.validity.summary import summary
@@ -196,7 +206,31 @@ def test_coverage_says_its_exact_binomial_interval():
 
 def test_errors_of_one_size_need_no_widening(cases):
     points = [point(case, normal=0.01, impulse=0.02, tangential=0.03) for case in cases]
-    assert factors(points, "condensed") == pytest.approx(dict.fromkeys(("normal", "impulse", "tangential"), 1.0))
+    for own in factors(points, "condensed").values():
+        assert own == pytest.approx(dict.fromkeys(("normal", "impulse", "tangential"), 1.0))
+
+
+def test_tight_arcs_have_a_factor_of_their_own(cases):
+    """Errors that scatter there tenfold, and not at all elsewhere, widen the limits there alone."""
+    rng = np.random.default_rng(3)
+    tight = [kind_of(case).startswith("belt") and groups_of(case).radius < TIGHT for case in cases]
+    points = [
+        point(case, normal=0.01 * (10.0 ** rng.uniform(-0.5, 0.5) if bent else 1.0))
+        for case, bent in zip(cases, tight, strict=True)
+    ]
+    found = factors(points, "condensed")
+    assert found["tight arcs"]["normal"] > 1.3 * found["elsewhere"]["normal"]
+
+
+def test_where_the_road_strikes_the_face_nothing_is_promised_and_nothing_learnt(cases):
+    """Errors of struck points move no expectation, and a struck case lies outside the map."""
+    struck = [strike(groups_of(case)) > STRUCK for case in cases]
+    assert 3 < sum(struck) < len(cases) / 3
+    points = [point(case, normal=0.5 if hit else 0.01) for case, hit in zip(cases, struck, strict=True)]
+    for case, hit in zip(cases[::7], struck[::7], strict=True):
+        found = expected_error(case, "condensed", points)
+        assert found.normal is None or found.normal == pytest.approx(0.01)
+        assert ("the road strikes the face" in found.outside) == (hit and found.normal is not None)
 
 
 def test_the_summary_says_median_nine_in_ten_and_worst(cases):
@@ -204,12 +238,14 @@ def test_the_summary_says_median_nine_in_ten_and_worst(cases):
     points = [point(case, normal=0.01 * (k + 1)) for k, case in enumerate(cases)]
     counts = {"points": 96, "asked_for": 96, "no_reference": 0, "refused": 0, "commit": "c"}
     worth = {
-        "fitted": 64, "held_out": 32, "factors": {"condensed": dict.fromkeys(("normal", "impulse", "tangential"), 1.5)},
+        "fitted": 64, "held_out": 32, "factors": {
+            "condensed": {name: dict.fromkeys(("normal", "impulse", "tangential"), 1.5) for name in CLASSES}
+        },
         "coverage": {"condensed normal": {"below": 18, "of": 20}},
     }  # fmt: skip
     text = summary(points, counts | worth)
     assert "48.5 / 86.5 / 96 %" in text
-    assert "90 % of 20 (95 % interval 68 to 99 %); factor 1.5" in text
+    assert "90 % of 20 (95 % interval 68 to 99 %); factor 1.5 elsewhere, 1.5 tight arcs" in text
     assert "before its limits were tried" in summary(points, counts)
 
 
