@@ -112,7 +112,7 @@ def growth(study):
     found.append(("paper: elements", 25 / lengths, [best_of(30, lambda c=c: run(c, "paper")) for c in cases]))
     nodes, passes, setups, sizes = [], [], [], []
     for density in (4.0, 6.0, 8.0, 12.0, 16.0):
-        settings = CondensedSettings(density=density, step=0.5 * density / 8.0, middle_step=density / 8.0)
+        settings = CondensedSettings(density=density, long_step=0.1 * density, middle_step=0.25 * density)
         os.environ["TREAD_VALIDATE_CACHE"] = "off"
         forget()
         first = best_of(1, lambda s=settings: roll(belt, s))
@@ -121,11 +121,11 @@ def growth(study):
         setups.append(first - passes[-1])
         sizes.append(nodes[-1])
     del os.environ["TREAD_VALIDATE_CACHE"]
-    found.append(("condensed: face nodes, steps of 0.5 mm", np.array(nodes), passes))
+    found.append(("condensed: face nodes, steps of 0.8 mm", np.array(nodes), passes))
     found.append(("condensed: set-up, face nodes", np.array(sizes), setups))
     steps, times = [], []
-    for step in (1.0, 0.5, 0.25, 0.125):
-        settings = CondensedSettings(step=step, middle_step=2 * step, longest_step=16 * step)
+    for step in (0.8, 0.4, 0.2, 0.1):
+        settings = CondensedSettings(long_step=step, middle_step=2.5 * step, longest_step=10 * step)
         times.append(best_of(3, lambda s=settings: roll(belt, s)))
         steps.append(roll(belt, settings).time.size)
     found.append(("condensed: steps", np.array(steps), times))

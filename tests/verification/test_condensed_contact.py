@@ -210,7 +210,7 @@ def test_steps_cover_the_pass_and_grow_only_while_the_whole_face_is_down(belt):
     quiet = (begin > 39e-3) & (place[1:] < total - 39e-3)
     assert travel.max() < 8e-3 * 1.001
     near = begin > -1e-3 - 1e-9  # before that the face flies, which takes no steps
-    assert travel[near & ~down].max() < 0.6e-3 * 1.001
+    assert travel[near & ~down].max() < 0.8e-3 * 1.001
     assert np.sum(travel[down & ~quiet] > 2e-3 * 1.001) <= 2  # the steps that straddle the limits
     assert travel[quiet].max() == pytest.approx(8e-3)
 
@@ -222,7 +222,7 @@ def test_where_nodes_stick_does_not_depend_on_the_steps(name, study_cases):
     """A pass begins clear of the road, and a node touches where its own free motion within the step takes it: with
     steps a quarter as long peaks move by 0.06 % (N) and 0.02 % (T)."""
     case = study_cases[name]
-    one, fine = rolled(case, CondensedSettings()), rolled(case, CondensedSettings(step=0.15, middle_step=0.5))
+    one, fine = rolled(case, CondensedSettings()), rolled(case, CondensedSettings(long_step=0.2, middle_step=0.5))
     largest = np.abs(fine.tangential_force).max()
     assert one.normal_force.max() == pytest.approx(fine.normal_force.max(), rel=1.5e-3)
     assert one.tangential_force.max() == pytest.approx(fine.tangential_force.max(), abs=2e-3 * largest)

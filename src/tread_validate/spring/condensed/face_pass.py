@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from ...geometry import path_of
+from ...geometry import Path, path_of
 from ...study import Case
 from .roll import CondensedSettings, FacePass, Ride, ride_of, roll
 from .stepping import FaceBlock
@@ -29,6 +29,7 @@ class CondensedPass:
     case: Case
     settings: CondensedSettings
     step: float
+    path: Path
     creep_tolerance: float = 2e-6
     """Creep ratios closer than this have one impulse, to the sweeps' tolerance."""
 
@@ -51,7 +52,7 @@ class CondensedPass:
 
     @cached_property
     def _ride(self) -> Ride:
-        return ride_of(self.case, self.settings)
+        return ride_of(self.case, self.settings, path=self.path)
 
     def _sums(self, creep_ratio: float) -> Array:
         """Return the sums of the record for the whole block."""
@@ -60,7 +61,8 @@ class CondensedPass:
 
 def prepare_condensed(case: Case, settings: CondensedSettings | None = None) -> CondensedPass:
     """Return the case ready to run; raises `InputError` for a path, a block or a data file that will not do."""
-    return CondensedPass(case, settings or CondensedSettings(), path_of(case).contact_duration / SAMPLES)
+    path = path_of(case)
+    return CondensedPass(case, settings or CondensedSettings(), path.contact_duration / SAMPLES, path)
 
 
 def prepare_coarse(case: Case) -> CondensedPass:

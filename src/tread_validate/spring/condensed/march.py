@@ -93,12 +93,14 @@ def start(pose: Pose, scene: Scene, state: FaceState, work: Scratch) -> None:
 def march(
     begin: int, course: Course, scene: Scene, windows: Windows, state: FaceState, work: Scratch, record: Record
 ) -> tuple[int, int, int]:
-    """Run steps from the time `begin` on.
+    """Put the unloaded face in its place at the time 0, or run steps from the time `begin` on.
 
     Returns (number of times, 0, 0) at the end of the pass; else the time at which a window is needed that is not there
     yet, and its cells a, b: call again from that time.
     """
-    for k in range(begin, course.time.size):
+    if begin == 0:
+        start(pose_at(course, 0), scene, state, work)
+    for k in range(max(begin, 1), course.time.size):
         dt = course.time[k] - course.time[k - 1]
         a, b, sweeps = take_step(pose_at(course, k), dt, scene, windows, state, work)
         if sweeps < 0:

@@ -16,7 +16,7 @@ from ..inputs import KernelLaw
 from ..rubber import law_of, series_of
 from .body import Body, BodySettings, fitted
 from .inputs import SLIP, SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
-from .march import Course, Record, clear_at_first, march, pose_at, record_of, start
+from .march import Course, Record, clear_at_first, march, record_of
 from .mesh_body import mesh_file_of
 from .motion import free_shape, motion
 from .operators import FaceOperators
@@ -44,6 +44,8 @@ class CondensedSettings:
         The division of the block where it shall not follow from the block.
     step : float
         Travel per step while an edge of the contact moves over the face, in elements.
+    long_step : float
+        The same where the contact grows longer than the face (a belt).
     middle_step : float
         The same while all of the face is on the road and is still pressed in or lifted.
     longest_step : float
@@ -60,6 +62,7 @@ class CondensedSettings:
     layers: int = 12
     body: BodySettings | None = None
     step: float = 0.6
+    long_step: float = 0.8
     middle_step: float = 2.0
     longest_step: float = 8.0
     finite_strain: bool = True
@@ -162,9 +165,10 @@ def ride_of(
     settings: CondensedSettings,
     series: PronySeries | None = None,
     friction: FrictionLaw | None = None,
+    path: Path | None = None,
 ) -> Ride:
-    """Return the case on its path; arguments and errors as of `roll`, whatever the case's creep ratio."""
-    path = path_of(case)
+    """Return the case on its path (made if not given); arguments and errors as of `roll`, at any creep ratio."""
+    path = path or path_of(case)
     face, scene, division = scene_of(case, path, settings, series, friction)
     bend = face.bend if settings.finite_strain else face.bend[:0]
     lead = LEAD
@@ -204,8 +208,7 @@ def run_course(moves: Course, scene: Scene, parts: FaceOperators, nodal: bool = 
     steps, n, terms = moves.time.size, scene.face.area.size, scene.solid.moduli.size
     record = record_of(steps, n, nodal)
     state, work = fresh_state(n, terms), scratch(n, terms, scene.second)
-    start(pose_at(moves, 0), scene, state, work)
-    at = 1
+    at = 0
     while True:
         at, a, b = march(at, moves, scene, parts.windows, state, work, record)
         if at == steps:
@@ -218,12 +221,13 @@ def step_times(path: Path, size: float, settings: CondensedSettings, lead: float
 
     `size` is the length of the face's elements in m; `lead` of them pass before the first contact.
     """
-    fine, longest = settings.step * size, settings.longest_step * size
     extent = path.columns.extent
+    total = path.contact_duration * path.speed
+    edge_step = settings.long_step if total > 2.0 * extent else settings.step
+    fine, longest = edge_step * size, settings.longest_step * size
     if path.columns.together:  # nothing rolls over the face: it is pressed, and slides, as a whole
         even = min(fine / path.speed, 2.0 * path.finest_time)
         return np.arange(-lead * even, 1.05 * path.contact_duration, even)
-    total = path.contact_duration * path.speed
     edge = extent + max(0.0, _approach(path))
     down, quiet = (extent, total - extent), (edge, total - edge)
     travel = [-lead * size, -0.5 * lead * size]
