@@ -7,7 +7,7 @@ them. ``*SYSTEM`` is applied to the nodes that follow it. Lines keep the file an
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
@@ -15,7 +15,6 @@ from .deck import LARGEST_LABEL, KeywordBlock, Lines, label
 from .nesting import STRUCTURE, Report, nested
 from .placement import can_move, instance_motion, still
 from .qualify import (
-    DEFINES,
     REFERS,
     UNPLACED,
     Scope,
@@ -26,6 +25,9 @@ from .qualify import (
     qualified,
     round_up,
 )
+
+MOST_LINES = 5_000_000
+"""Data lines of all instances together: a part may be instanced without end."""
 
 
 @dataclass
@@ -69,6 +71,8 @@ class _Resolver:
         self.flat: list[KeywordBlock] = []
         self.instances: list[tuple[int, str]] = []
         self.names: set[str] = set()
+        self.scopes: dict[str, Scope] = {}
+        self.lines = 0
         self.next_label = 0
         self.uncounted: list[KeywordBlock] = []
         self.held: _Part | None = None
@@ -154,6 +158,13 @@ class _Resolver:
             self._tell("dangling-part", at, f"part {named}", f"a *PART of the deck ({known})")
             return
         blocks = [*part.blocks, *own.blocks]
+        before = self.lines
+        self.lines += sum(len(block.data) for block in blocks)
+        if before > MOST_LINES:
+            return  # told already
+        if self.lines > MOST_LINES:
+            self._tell("not-placed", at, f"more than {MOST_LINES} lines in all instances together", "fewer")
+            return
         try:
             motion = instance_motion(at)
         except InputError as error:
@@ -166,7 +177,7 @@ class _Resolver:
             self._tell("structure", at, f"labels beyond {LARGEST_LABEL} in all instances together", "fewer or lower")
             return
         self.instances.append((first, name))
-        scope = Scope(name, first, frozenset(part_names(blocks)))
+        scope = self.scopes[name] = Scope(name, first, frozenset(part_names(blocks)))
         for block in placed_nodes(blocks, motion, first):
             fixed = block.keyword == "SURFACE" and is_analytical(block) and not can_move(block)
             if (fixed and not motion.is_identity) or (block.keyword in UNPLACED and (first or not motion.is_identity)):
@@ -179,38 +190,28 @@ class _Resolver:
         """Return a block of the assembly or after it, with labels of the form ``INSTANCE.7`` resolved."""
         instance = block.parameters.get("INSTANCE")
         if block.keyword in ("NSET", "ELSET") and instance is not None:
-            first = next((base for base, name in self.instances if name == instance), None)
-            if first is None:
+            prefix = self.scopes.get(instance)
+            if prefix is None:
                 if instance not in self.names:  # else its own fault is told already
                     self._tell("dangling-instance", block, f"instance {instance}", "an *INSTANCE of the assembly")
                 parameters = {name: value for name, value in block.parameters.items() if name in ("NSET", "ELSET")}
                 return KeywordBlock(block.keyword, parameters, Lines(block.file), block.file, block.line, block.raw)
-            prefix = Scope(instance, first, frozenset(self._names_of(instance)))
             block = qualified(block, prefix, still(), define=False)
             parameters = {name: value for name, value in block.parameters.items() if name != "INSTANCE"}
             return KeywordBlock(block.keyword, parameters, block.data, block.file, block.line, block.raw)
         return self._with_labels(block)
 
-    def _names_of(self, instance: str) -> Iterable[str]:
-        start = f"{instance}."
-        for block in self.flat:
-            parameter = DEFINES.get(block.keyword)
-            value = block.parameters.get(parameter) if parameter else None
-            if value and value.startswith(start):
-                yield value[len(start) :]
-
     def _with_labels(self, block: KeywordBlock) -> KeywordBlock:
         """Replace ``INSTANCE.7`` in data lines and parameters by the label that it is in the flat deck."""
         if block.keyword in ("NODE", "HEADING"):
             return block
-        bases = {name: first for first, name in self.instances if name}
 
         def replaced(text: str) -> str:
             head, point, tail = text.strip().rpartition(".")
             if not point or not tail.strip().isdigit() or not head or head[0].isdigit() or head[0] in "+-.":
                 return text
-            first = bases.get(label(head))
-            return text if first is None else str(first + int(tail))
+            scope = self.scopes.get(label(head))
+            return text if scope is None else str(scope.first + int(tail))
 
         parameters = {
             name: replaced(block.raw.get(name, value)) if value and name in REFERS and "." in value else value

@@ -35,6 +35,7 @@ NAMED = {
 }
 """Keywords that define a name, and by which parameter."""
 
+LABEL = re.compile(r"(\S+)\.\d+")
 UNENDED = re.compile(r"\bno \*END (PART|INSTANCE)")
 """What the reader says of a part or instance whose end is missing where it may have swallowed lines that follow it."""
 
@@ -179,11 +180,10 @@ def _first_labels(lines: Iterable[DataLine]) -> IntArray:
 
 def unique(findings: Iterable[Finding], instances: Iterable[str] = ()) -> list[Finding]:
     """Return the findings in order; what holds alike for each of the part's `instances` is said once."""
-    prefix = re.compile(
-        "|".join(sorted((re.escape(name) + r"\." for name in instances if name), key=len, reverse=True))
-    )
+    last_words = {name.split()[-1] for name in instances if name.strip()}
     seen: dict[tuple[str, int, str, str], Finding] = {}
     for finding in findings:
-        bare = "".join(letter for letter in prefix.sub("", finding.message) if not letter.isdigit())
+        message = LABEL.sub(lambda found: "" if found[1] in last_words else found[0], finding.message)
+        bare = "".join(letter for letter in message if not letter.isdigit())
         seen.setdefault((finding.file, finding.line, finding.rule, bare), finding)
     return sorted(seen.values())

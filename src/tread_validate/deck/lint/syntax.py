@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cache
 
 from ...inp import DataLine, Deck, KeywordBlock, Lines
 from ...inp.deck import to_float
@@ -15,6 +14,8 @@ from .findings import Finding, Findings
 from .spelling import misspelt
 
 LONGEST_LINE = 256
+MOST_UNKNOWN = 200
+"""Different unknown keywords that are compared with the known ones."""
 MODEL_ONLY = frozenset({
     "HEADING", "PART", "INSTANCE", "ASSEMBLY", "NODE", "ELEMENT", "MATERIAL", "DENSITY", "ELASTIC", "HYPERELASTIC",
     "VISCOELASTIC", "TRS", "SOLID SECTION", "SHELL SECTION", "MEMBRANE SECTION", "SECTION CONTROLS", "RIGID BODY",
@@ -39,8 +40,9 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
     inside = False
     steps = 0
     opened: KeywordBlock | None = None
+    meant = meant_keywords(deck, dialect)
     for position, block in enumerate(deck.written):
-        keyword = block.keyword if block.keyword in vocabulary else _meant(block.keyword, dialect) or block.keyword
+        keyword = meant.get(block.keyword) or block.keyword
         if keyword == "STEP":
             if inside:
                 findings.add(block, "step-order", "a *STEP inside a step: *END STEP is missing before it")
@@ -48,7 +50,7 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
             steps += 1
         known = vocabulary.get(block.keyword)
         if known is None:
-            _unknown(block, vocabulary, findings, dialect)
+            _unknown(block, meant.get(block.keyword), vocabulary, findings, dialect)
         else:
             _check_place(block, inside, steps, findings, dialect)
             own: Findings = Findings()
@@ -68,22 +70,23 @@ def check_syntax(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Non
 
 def repaired(deck: Deck, dialect: str = "abaqus") -> Deck:
     """Return the deck with misspelt keywords (told by `check_syntax`) as they are meant, so that nothing follows."""
-    vocabulary = keywords(dialect)
-    blocks = [(block, None if block.keyword in vocabulary else _meant(block.keyword, dialect)) for block in deck.blocks]
-    if all(near is None for _, near in blocks):
+    meant = {word: near for word, near in meant_keywords(deck, dialect).items() if near is not None}
+    if not meant:
         return deck
-    return replace(
-        deck, blocks=tuple(block if near is None else replace(block, keyword=near) for block, near in blocks)
-    )
+    blocks = (replace(one, keyword=meant[one.keyword]) if one.keyword in meant else one for one in deck.blocks)
+    return replace(deck, blocks=tuple(blocks))
 
 
-@cache
-def _meant(word: str, dialect: str) -> str | None:
-    """Return the keyword that an unknown one is a letter or two from."""
+def meant_keywords(deck: Deck, dialect: str) -> dict[str, str | None]:
+    """Return, for the first `MOST_UNKNOWN` unknown keywords, the known one that each is a letter or two from."""
     vocabulary = keywords(dialect)
-    if dialect == "calculix" and _begins_with_keyword(word, vocabulary):
-        return None
-    return misspelt(word, vocabulary)
+    found: dict[str, str | None] = {}
+    for block in deck.written:
+        if block.keyword in vocabulary or block.keyword in found or len(found) == MOST_UNKNOWN:
+            continue
+        own = dialect == "calculix" and _begins_with_keyword(block.keyword, vocabulary)
+        found[block.keyword] = None if own else misspelt(block.keyword, vocabulary)
+    return found
 
 
 def _begins_with_keyword(word: str, vocabulary: Mapping[str, KeywordEntry]) -> bool:
@@ -92,11 +95,12 @@ def _begins_with_keyword(word: str, vocabulary: Mapping[str, KeywordEntry]) -> b
     return any(squeezed.startswith(name.replace(" ", "")) for name in vocabulary)
 
 
-def _unknown(block: KeywordBlock, vocabulary: Mapping[str, KeywordEntry], findings: Findings, dialect: str) -> None:
+def _unknown(
+    block: KeywordBlock, near: str | None, vocabulary: Mapping[str, KeywordEntry], findings: Findings, dialect: str
+) -> None:
     if dialect == "calculix" and _begins_with_keyword(block.keyword, vocabulary):
         findings.add(block, "not-checked", f"*{block.keyword} begins with a keyword: not checked")
         return
-    near = _meant(block.keyword, dialect)
     if near is not None:
         findings.add(block, "unknown-keyword", f"*{block.keyword} is no keyword; did you mean *{near}?")
     elif dialect == "abaqus" and block.keyword in keywords("calculix"):
