@@ -61,6 +61,7 @@ def test_one_file_and_general_contact_are_options(altered_study: Callable[..., P
         said = [line for line in (out / RIG / f"{RIG}{kind}.inp").read_text().splitlines() if "abaqus job=" in line]
         routine = "" if user is None else f" user={user}.f"
         rename = "" if user is None else f" (on Windows rename {user}.f to {user}.for)"
+        assert "** HALF the block" in (out / RIG / f"{RIG}{kind}.inp").read_text()[:2000]
         assert said == [f"** Run: abaqus job={RIG}{kind}{routine} double=both{rename}"]
 
 

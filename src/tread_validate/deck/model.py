@@ -111,7 +111,7 @@ def build(case: Case, *, single_file: bool = False, general_contact: bool = Fals
     placement, tables = _motion(case, mesh, path, pass_time)
     inputs = inputs_of(case, path, friction, placement, pass_time)
     form = Form(single_file)
-    top, below = _opening(case), form.parameters(inputs.by_hand, inputs.derived)
+    top, below = _opening(case, mesh), form.parameters(inputs.by_hand, inputs.derived)
     before = [
         *below,
         *sections.mesh(form, mesh, placement, case.block_name, bool(tables), case.deck.element),
@@ -185,7 +185,7 @@ def _motion(case: Case, mesh: BlockMesh, path: Path, pass_time: float) -> tuple[
     return place(mesh, path, curvature), mount_tables(path, rows, pass_time, curvature)
 
 
-def _opening(case: Case) -> list[str]:
+def _opening(case: Case, mesh: BlockMesh) -> list[str]:
     """Return the heading. User's free text stays out of decks: names and ids have a closed alphabet."""
     lines = ["*HEADING", case.case_id]
     lines += [
@@ -197,10 +197,15 @@ def _opening(case: Case) -> list[str]:
             f"Study: {case.study_name}, sha256 {case.study_digest}",
             f"Path {case.path_name}, block {case.block_name}, compound {case.compound_name}, "
             f"friction {case.friction_name}",
-            f"{case.temperature:g} degC, interference {case.interference * DECK_LENGTH:g} mm, "
+            f"Written for {case.temperature:g} degC, interference {case.interference * DECK_LENGTH:g} mm, "
             f"speed {case.speed:.6g} m/s, creep ratio {case.creep_ratio:.6g}"
             + (" (free rolling)" if case.free_rolling else ""),
             *(f"ASSUMED INPUT: {item}" for item in case.assumed()),
+            *(
+                ("HALF the block (z >= 0) is modelled: double the forces, reactions and energies of the results",)
+                if mesh.symmetry_nodes.size
+                else ()
+            ),
             "x: direction of travel, y: away from the road, z: across. Road at y = 0 under the axle (x = 0).",
             "Step approach leads in without contact; step pass begins at the first contact.",
         )
