@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,14 @@ STYLES = {
     "condensed": (GREEN, "D"),
     "fe": (BLACK, "P"),
 }
+NAMES = {
+    "paper": "springs of the paper",
+    "shape_factor_theory": "shape factor, theory",
+    "shape_factor": "shape-factor springs",
+    "condensed_coarse": "condensed FE, coarse",
+    "condensed": "condensed FE",
+}
+NEAR = 0.15  # decades between points whose labels would lie on each other
 OWN = (GREY, "X")  # a model of the user's own; its name stands in the legend
 Rows = Sequence[Mapping[str, Any]]
 ROOM = 0.96  # of the height, under the note
@@ -37,30 +46,44 @@ def pareto_figure(rows: Rows, meshes: Rows, path: Path) -> None:
             if row["group"] == "all" or error is None or row["seconds_per_pass"] is None:
                 continue
             color, marker = STYLES.get(row["level"], OWN)
+            label = f"{NAMES.get(row['level'], row['level'])}, {row['group']}"
             look = {
-                "color": color, "ms": 7, "ls": "none", "label": f"{row['level']}, {row['group']}",
+                "color": color, "ms": 7, "ls": "none", "label": label,
                 "mfc": color if row["group"] == "rig" else "white",
             }  # fmt: skip
             left.plot(row["seconds_per_pass"], 100.0 * error, marker, **look)
             if row["mean_iso18571_tangential"] is not None:
                 right.plot(row["seconds_per_pass"], row["mean_iso18571_tangential"], marker, **look)
-        color, marker = STYLES["fe"]
-        for row in meshes:
-            if row["seconds_estimated"] is None:
-                continue
-            filled = row["case_id"].startswith("rig")
-            place = row["seconds_estimated"], max(100.0 * abs(row["peak_normal_force_error"]), 0.02)
-            left.plot(*place, marker, color=color, ms=8, mfc=color if filled else "white", ls="none")
-            left.annotate(f"FE {row['element_size_mm']:g} mm", place, textcoords="offset points", xytext=(5, 5), size=7)
+        _mesh_points(left, meshes)
         left.set(xscale="log", yscale="log", xlabel="processor time of one pass, s")
+        left.margins(0.08, 0.12)
         left.set_ylabel("mean |error| of the peak normal force, %")
-        left.set_title("Normal force, against the FE runs\n(FE meshes: against their own limit)", loc="left")
+        left.set_title("Normal force, compared with the FE runs\n(FE meshes: with their own limit)", loc="left")
         right.set(xscale="log", ylim=(0.0, 1.02), xlabel="processor time of one pass, s")
         right.set_ylabel("mean ISO/TS 18571 score")
         right.set_title("Longitudinal force history, compared with the FE runs\n(1 is perfect)", loc="left")
-        figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+        figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=5, fontsize=7,
+                      columnspacing=1.0, handletextpad=0.3)  # fmt: skip
         _mark(figure, rows)
         _save(figure, path)
+
+
+def _mesh_points(axes: Axes, meshes: Rows) -> None:
+    """Draw the FE meshes; of points that lie on each other one is labelled."""
+    color, marker = STYLES["fe"]
+    labelled: list[tuple[str, float, float]] = []
+    for row in meshes:
+        if row["seconds_estimated"] is None:
+            continue
+        filled = row["case_id"].startswith("rig")
+        time, error = row["seconds_estimated"], max(100.0 * abs(row["peak_normal_force_error"]), 0.02)
+        axes.plot(time, error, marker, color=color, ms=8, mfc=color if filled else "white", ls="none")
+        label = (f"FE {row['element_size_mm']:g} mm", math.log10(time), math.log10(error))
+        if any(name == label[0] and math.hypot(x - label[1], y - label[2]) < NEAR for name, x, y in labelled):
+            continue
+        labelled.append(label)
+        offset = (0, 7) if filled else (0, -13)
+        axes.annotate(label[0], (time, error), textcoords="offset points", xytext=offset, size=7, ha="center")
 
 
 def sobol_figure(rows: Rows, path: Path) -> None:
