@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Sectio
 from .marks import Marks
 
 TITLE = "Change since the accepted baseline"
+WAYS = {"assessment": "Good enough for the purpose", "agreement": "Agreement within uncertainty"}
 KINDS = {
     "flip": "Assessments that flipped",
     "rule": "What assessments depend on",
@@ -24,7 +26,8 @@ KINDS = {
     "consequence": "What follows from them",
 }
 LIMIT = 60
-WORST = ("inadequate", "differs", "cannot tell")
+FEW = 8  # flips that a reader takes in one by one; more are counted first
+WORST = ("inadequate", "disagrees", "differs", "cannot tell")
 
 
 def baseline_section(
@@ -47,14 +50,15 @@ def baseline_section(
     failed = [row for row in rows if not row.passed]
     outcome: tuple[Tone, str] = ("good", "No number and no word differs from the baseline beyond its noise.")
     if failed:
-        count = sum(row.kind == "flip" for row in failed)
         places = len({(row.in_table, row.row_key) for row in failed})
-        words = f"{wording.plural(count, 'assessment')} flipped; " if count else "No assessment flipped; "
+        words = _flipped([row for row in failed if row.kind == "flip"])
         outcome = ("bad", f"{words}{wording.plural(places, 'row')} moved beyond noise, or are new, missing or stale.")
     items: list[Item] = [Paragraph(outcome[1])]
     flips = sorted((row for row in failed if row.kind == "flip"), key=_gravity)
+    if len(flips) > FEW:
+        items.append(_counted(flips))
     if flips:
-        items.append(_table(flips, "flips", "Assessments that flipped"))
+        items.append(_table(flips, "flips", "Assessments that flipped", folded=len(flips) > FEW, limit=len(flips)))
     if tables is not None and accepted is not None and (accepted / "baseline.yaml").is_file():
         found = movements(load_baseline(accepted), tables)
         items.append(_movements(found))
@@ -62,13 +66,54 @@ def baseline_section(
         items += _trend(read_trend(accepted))
     others = [row for row in rows if row.passed or row.kind != "flip"]
     if others:
-        items.append(_table(others, "delta", "Cells that are not what they were"))
+        items.append(_table(others, "delta", "Cells that are not what they were", folded=True))
     return Section("baseline", TITLE, tuple(items)), outcome
+
+
+def _flipped(flips: Sequence[Delta]) -> str:
+    """Say how many assessments flipped, and which way."""
+    if not flips:
+        return "No assessment flipped; "
+    worse = sum(_rank(row.current) < _rank(row.baseline) for row in flips)
+    better = sum(_rank(row.current) > _rank(row.baseline) for row in flips)
+    ways = ", ".join(f"{count} {way}" for count, way in ((worse, "for the worse"), (better, "for the better")) if count)
+    return f"{wording.plural(len(flips), 'assessment')} flipped" + (f" ({ways}); " if ways else "; ")
+
+
+def _rank(word: str) -> int:
+    """Order assessments from worst to best."""
+    return WORST.index(word) if word in WORST else len(WORST)
+
+
+def _counted(flips: Sequence[Delta]) -> Table:
+    """Return the flips counted by model, quantity and what became of them, in the order of the flips."""
+    counts = Counter((row.source, row.quantity, row.metric, row.in_column, row.baseline, row.current) for row in flips)
+    lines = [
+        Row(
+            (
+                Cell(wording.source(source) if source else "–"),
+                Cell(wording.quantity(quantity, metric or "scalar") if quantity else "–"),
+                Cell(before or "–"),
+                Cell(now or "–", tone="bad" if _rank(now) < _rank(before) else "good"),
+                Cell(f"{count}", sort=count),
+            ),
+            group=WAYS.get(in_column, in_column.replace("_", " ")),
+        )
+        for (source, quantity, metric, in_column, before, now), count in counts.items()
+    ]
+    columns = (
+        Column("Source", wide=True), Column("Quantity", wide=True), Column("Baseline"), Column("Now"),
+        Column("Flips", "cases or statements", numeric=True),
+    )  # fmt: skip
+    return Table(
+        "flip-counts", "Assessments that flipped, counted", columns, tuple(lines), csv="delta.csv", printed=12,
+        help="Every flip by itself is in the folded table below; its filter takes a case, a model or a quantity.",
+    )  # fmt: skip
 
 
 def _gravity(row: Delta) -> tuple[bool, int]:
     """Order flips: assessments before agreement within uncertainty, and those that are worst now first."""
-    return row.in_column != "assessment", WORST.index(row.current) if row.current in WORST else len(WORST)
+    return row.in_column != "assessment", _rank(row.current)
 
 
 def _drawn(
@@ -86,7 +131,7 @@ def _drawn(
     return [Figures(figures)] if figures else []
 
 
-def _table(rows: Sequence[Delta], key: str, title: str) -> Table:
+def _table(rows: Sequence[Delta], key: str, title: str, folded: bool, limit: int = LIMIT) -> Table:
     columns = (
         Column("Change"),
         Column("Row of a table", wide=True, long=True),
@@ -95,9 +140,9 @@ def _table(rows: Sequence[Delta], key: str, title: str) -> Table:
         Column("Now", numeric=True),
         Column("Change / noise", numeric=True),
     )
-    lines = tuple(_line(row) for row in rows[:LIMIT])
-    caption = f"First {LIMIT} of {len(rows)} rows." if len(rows) > LIMIT else ""
-    return Table(key, title, columns, lines, caption, folded=key == "delta", csv="delta.csv", printed=8)
+    lines = tuple(_line(row) for row in rows[:limit])
+    caption = f"First {limit} of {len(rows)} rows." if len(rows) > limit else ""
+    return Table(key, title, columns, lines, caption, folded=folded, csv="delta.csv", printed=8)
 
 
 def _movements(found: Sequence[Movement]) -> Table:

@@ -168,8 +168,8 @@ def in_sentence(name: str) -> str:
 def sliding(shares: tuple[float, float] | None) -> str:
     """Say how much of the face slides, weighted with N: without sliding, T is a matter of stiffness alone."""
     if shares is None:
-        return "sliding share not known"
-    return f"sliding share {percent(shares[1])}, reference {percent(shares[0])}"
+        return "sliding area not known"
+    return f"sliding area {percent(shares[1])}, reference {percent(shares[0])}"
 
 
 def path(key: str) -> str:

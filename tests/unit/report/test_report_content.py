@@ -192,7 +192,10 @@ def test_a_flipped_assessment_stands_before_what_moved(tmp_path: Path, marks: Ma
     path = tmp_path / "delta.csv"
     path.write_text(rows_text(Delta, [FLIP, MOVED]), encoding="utf-8")
     section, moved = baseline_section(path, marks)
-    assert moved == ("bad", "1 assessment flipped; 2 rows moved beyond noise, or are new, missing or stale.")
+    assert moved == (
+        "bad",
+        "1 assessment flipped (1 for the worse); 2 rows moved beyond noise, or are new, missing or stale.",
+    )
     flips, moves = section.items[1:]
     assert isinstance(flips, Table)
     assert isinstance(moves, Table)
@@ -211,6 +214,27 @@ def test_the_gravest_flip_stands_first(tmp_path: Path, marks: Marks) -> None:
     flips = baseline_section(path, marks)[0].items[1]
     assert isinstance(flips, Table)
     assert [row.cells[4].text for row in flips.rows] == ["inadequate", "cannot tell", "adequate", "differs"]
+
+
+def test_many_flips_are_counted_before_they_are_listed(tmp_path: Path, marks: Marks) -> None:
+    """Exact: 40 cases of one model from adequate to inadequate and one back are two rows; all 41 stand folded below."""
+    worse = [replace(FLIP, quantity="peak_normal_force", metric="scalar", row_key=f"case {i}", baseline="adequate",
+                     current="inadequate") for i in range(40)]  # fmt: skip
+    better = replace(worse[0], row_key="case 40", baseline="inadequate", current="adequate")
+    path = tmp_path / "delta.csv"
+    path.write_text(rows_text(Delta, [*worse, better]), encoding="utf-8")
+    section, moved = baseline_section(path, marks)
+    assert moved is not None
+    assert moved[1].startswith("41 assessments flipped (40 for the worse, 1 for the better); ")
+    counted, flips = section.items[1:3]
+    assert isinstance(counted, Table)
+    assert isinstance(flips, Table)
+    assert [[cell.text for cell in row.cells] for row in counted.rows] == [
+        ["Springs of the paper", "Peak normal force", "adequate", "inadequate", "40"],
+        ["Springs of the paper", "Peak normal force", "inadequate", "adequate", "1"],
+    ]
+    assert flips.folded
+    assert len(flips.rows) == 41
 
 
 def test_a_move_within_noise_is_good(tmp_path: Path, marks: Marks) -> None:
