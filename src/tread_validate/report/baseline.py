@@ -17,7 +17,11 @@ from .content import Cell, Column, Figure, Figures, Item, Paragraph, Row, Sectio
 from .marks import Marks
 
 TITLE = "Change since the accepted baseline"
-WAYS = {"assessment": "Good enough for the purpose", "agreement": "Agreement within uncertainty"}
+WAYS = {
+    "passed": "Cases that are good enough",
+    "assessment": "Good enough for the purpose",
+    "agreement": "Agreement within uncertainty",
+}
 KINDS = {
     "flip": "Assessments that flipped",
     "rule": "What assessments depend on",
@@ -74,10 +78,15 @@ def _flipped(flips: Sequence[Delta]) -> str:
     """Say how many assessments flipped, and which way."""
     if not flips:
         return "No assessment flipped; "
-    worse = sum(_rank(row.current) < _rank(row.baseline) for row in flips)
-    better = sum(_rank(row.current) > _rank(row.baseline) for row in flips)
-    ways = ", ".join(f"{count} {way}" for count, way in ((worse, "for the worse"), (better, "for the better")) if count)
-    return f"{wording.plural(len(flips), 'assessment')} flipped" + (f" ({ways}); " if ways else "; ")
+    ways = Counter(_way(row) for row in flips)
+    told = ", ".join(f"{ways[way]} for the {word}" for way, word in ((-1, "worse"), (1, "better")) if ways[way])
+    return f"{wording.plural(len(flips), 'assessment')} flipped" + (f" ({told}); " if told else "; ")
+
+
+def _way(row: Delta) -> int:
+    """Return 1 for a change to the better, -1 to the worse, 0 where neither can be said."""
+    ends = [float(text) if text.isdigit() else _rank(text) for text in (row.baseline, row.current)]
+    return (ends[1] > ends[0]) - (ends[1] < ends[0])
 
 
 def _rank(word: str) -> int:
@@ -86,20 +95,33 @@ def _rank(word: str) -> int:
 
 
 def _counted(flips: Sequence[Delta]) -> Table:
-    """Return the flips counted by model, quantity and what became of them, in the order of the flips."""
-    counts = Counter((row.source, row.quantity, row.metric, row.in_column, row.baseline, row.current) for row in flips)
+    """Return the flips counted by source, quantity and what became of them, most losses first.
+
+    Groups of cases are left out where the row of all cases says it.
+    """
+    whole = [row for row in flips if row.in_table != "ensemble" or row.case_id == "all"]
+    counts: Counter[tuple[str, str, str, str, str, int]] = Counter()
+    for row in whole:
+        size = 1
+        if row.baseline.isdigit() and row.current.isdigit():
+            size = abs(int(row.current) - int(row.baseline))
+        name = wording.quantity(row.quantity, row.metric or "scalar") if row.quantity else "–"
+        group = "Published statements" if row.in_table == "claims" else WAYS.get(row.in_column, row.in_column)
+        counts[group, row.source, name, row.baseline, row.current, _way(row)] += size
+    ordered = sorted(counts.items(), key=lambda item: (item[0][0], item[0][5], -item[1]))
+    tones: dict[int, Tone] = {-1: "bad", 1: "good"}
     lines = [
         Row(
             (
                 Cell(wording.source(source) if source else "–"),
-                Cell(wording.quantity(quantity, metric or "scalar") if quantity else "–"),
+                Cell(name),
                 Cell(before or "–"),
-                Cell(now or "–", tone="bad" if _rank(now) < _rank(before) else "good"),
+                Cell(now or "–", tone=tones.get(way, "")),
                 Cell(f"{count}", sort=count),
             ),
-            group=WAYS.get(in_column, in_column.replace("_", " ")),
+            group=group,
         )
-        for (source, quantity, metric, in_column, before, now), count in counts.items()
+        for (group, source, name, before, now, way), count in ordered
     ]
     columns = (
         Column("Source", wide=True), Column("Quantity", wide=True), Column("Baseline"), Column("Now"),

@@ -217,24 +217,28 @@ def test_the_gravest_flip_stands_first(tmp_path: Path, marks: Marks) -> None:
 
 
 def test_many_flips_are_counted_before_they_are_listed(tmp_path: Path, marks: Marks) -> None:
-    """Exact: 40 cases of one model from adequate to inadequate and one back are two rows; all 41 stand folded below."""
+    """Exact: 40 cases from adequate to inadequate and one back are two rows, 52 cases less 12 that are good enough one;
+    what a group of cases repeats is left out; all 43 stand folded below."""
     worse = [replace(FLIP, quantity="peak_normal_force", metric="scalar", row_key=f"case {i}", baseline="adequate",
                      current="inadequate") for i in range(40)]  # fmt: skip
     better = replace(worse[0], row_key="case 40", baseline="inadequate", current="adequate")
     path = tmp_path / "delta.csv"
-    path.write_text(rows_text(Delta, [*worse, better]), encoding="utf-8")
+    passed = [replace(worse[0], in_table="ensemble", in_column="passed", case_id=group, row_key=group, baseline="52",
+                      current="12") for group in ("all", "rig")]  # fmt: skip
+    path.write_text(rows_text(Delta, [*worse, better, *passed]), encoding="utf-8")
     section, moved = baseline_section(path, marks)
     assert moved is not None
-    assert moved[1].startswith("41 assessments flipped (40 for the worse, 1 for the better); ")
+    assert moved[1].startswith("43 assessments flipped (42 for the worse, 1 for the better); ")
     counted, flips = section.items[1:3]
     assert isinstance(counted, Table)
     assert isinstance(flips, Table)
     assert [[cell.text for cell in row.cells] for row in counted.rows] == [
+        ["Springs of the paper", "Peak normal force", "52", "12", "40"],
         ["Springs of the paper", "Peak normal force", "adequate", "inadequate", "40"],
         ["Springs of the paper", "Peak normal force", "inadequate", "adequate", "1"],
     ]
     assert flips.folded
-    assert len(flips.rows) == 41
+    assert len(flips.rows) == 43
 
 
 def test_a_move_within_noise_is_good(tmp_path: Path, marks: Marks) -> None:
