@@ -113,8 +113,10 @@ def test_constant_friction_variant_differs_in_the_friction_alone(rig_case: Case,
     assert built.constant_friction_text is not None
     user, constant = (
         re.split(r"(?:\*\* Variant.*\n)?\*SURFACE INTERACTION, NAME=TREAD_ROAD\n", text)
-        for text in (built.input_text, built.constant_friction_text)
-    )
+        for text in (
+            re.sub(r"(?m)^.*double=both.*\n", "", one) for one in (built.input_text, built.constant_friction_text)
+        )
+    )  # the line with the command that runs each names its own job
     assert user[0] == constant[0]
     ending = "*INITIAL CONDITIONS, TYPE=TEMPERATURE"
     assert user[1].split(ending, 1)[1] == constant[1].split(ending, 1)[1]
