@@ -36,6 +36,7 @@ rule tables:
         f"{LOGS}/benchmarks/tables.tsv"
     conda:
         ENVIRONMENT
+    threads: 2
     params:
         spring=lambda wildcards: f"{RESULTS}/spring",
         references=lambda wildcards: REFERENCES,
@@ -46,7 +47,7 @@ rule tables:
         "Comparing every run with its reference"
     shell:
         "tread-validate tables {input.study} --spring {params.spring} --references {params.references} "
-        "--decks {params.decks} -o {params.folder} > {log} 2>&1"
+        "--decks {params.decks} --jobs {threads} -o {params.folder} > {log} 2>&1"
 
 
 rule check:

@@ -24,6 +24,7 @@ rule report:
         f"{LOGS}/benchmarks/report.tsv"
     conda:
         ENVIRONMENT
+    threads: 2
     params:
         tables=lambda wildcards: f"{RESULTS}/tables",
         spring=lambda wildcards: f"{RESULTS}/spring",
@@ -36,7 +37,8 @@ rule report:
         "Writing the report"
     shell:
         "tread-validate report {input.study} --tables {params.tables} --spring {params.spring} "
-        "--references {params.references} --decks {params.decks} --workflow {input.graph} {params.delta} -o {params.folder} > {log} 2>&1"
+        "--references {params.references} --decks {params.decks} --workflow {input.graph} {params.delta} "
+        "--jobs {threads} -o {params.folder} > {log} 2>&1"
 
 
 rule run_times:

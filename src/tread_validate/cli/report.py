@@ -32,6 +32,7 @@ def command(
     workflow: Annotated[
         Path | None, typer.Option(help="the workflow's note of its rules; without it their graph is not drawn")
     ] = None,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, help="2: draw and set in two processes")] = 1,
 ) -> None:
     """Write the report: index.html (one self-contained file), report.pdf, tables/ and figures/.
 
@@ -49,6 +50,7 @@ def command(
     hierarchy = hierarchy or references / "hierarchy" / loaded.model.name
     todays_tables(tables, loaded)
     build_report(
-        study, tables, spring, references, decks, out, baseline_delta=delta, hierarchy_dir=hierarchy, workflow=workflow
-    )
+        study, tables, spring, references, decks, out, baseline_delta=delta, hierarchy_dir=hierarchy, workflow=workflow,
+        jobs=jobs,
+    )  # fmt: skip
     typer.echo(f"{out / 'index.html'}\n{out / 'report.pdf'}")

@@ -33,6 +33,7 @@ def command(
     all_interferences: Annotated[
         bool, typer.Option("--all-interferences", help="leave no interference out of the regressions")
     ] = False,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, help="2: read and score in two processes")] = 1,
 ) -> None:
     """Compare every run with its reference and the study with the paper.
 
@@ -48,7 +49,7 @@ def command(
     place = Workspace(load_study(study).model.name)
     spring, decks, output = spring or place.spring, decks or place.decks, output or place.tables
     left_out = () if all_interferences else tuple(exclude or EXCLUDED_INTERFERENCES)
-    found = build_tables(study, spring, references, output, decks, left_out)
+    found = build_tables(study, spring, references, output, decks, left_out, jobs)
     for source in found.sources:
         runs = [run for (name, _), run in found.runs.items() if name == source]
         current = sum(run.history is not None for run in runs)

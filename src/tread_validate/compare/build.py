@@ -41,6 +41,7 @@ def build_tables(
     out_dir: Path | str,
     decks_dir: Path | str = "fe_inputs",
     exclude: Sequence[float] = EXCLUDED_INTERFERENCES,
+    jobs: int = 1,
 ) -> StudyComparison:
     """Compare every run of a study and write the tables; the same inputs give the same bytes.
 
@@ -59,9 +60,11 @@ def build_tables(
         of these. Without them every reference run is stale.
     exclude : sequence of float, mm
         Interferences left out of the regressions; the paper leaves out 0.3 mm.
+    jobs : int
+        With 2, runs are read and scored in two processes; the tables are the same.
     """
     loaded = load_study(study)
-    found = compare_study(loaded, Path(spring_dir), Path(reference_dir), Path(decks_dir), exclude)
+    found = compare_study(loaded, Path(spring_dir), Path(reference_dir), Path(decks_dir), exclude, jobs=jobs)
     write_tables(found, Path(reference_dir), Path(out_dir))
     return found
 

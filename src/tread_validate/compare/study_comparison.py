@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ..beside import beside
 from ..errors import InputError, one_line
 from ..reference import load_published
 from ..study import Case, LoadedStudy
@@ -58,6 +59,7 @@ def compare_study(
     exclude: Sequence[float] = EXCLUDED_INTERFERENCES,
     models_dir: Path | None = None,
     part: StudyPart | None = None,
+    jobs: int = 1,
 ) -> StudyComparison:
     """Compare every run of a study with its reference, and the study with the paper; or a part of that.
 
@@ -68,17 +70,18 @@ def compare_study(
     variants, models, sources = (part or whole).variants, (part or whole).models, (part or whole).sources
     every = _resolved(loaded.cases())
     cases = every if part is None else part.chosen(every)
-    runs = spring_runs(cases, spring_dir, variants)
-    runs |= model_runs(loaded, cases, models_dir or spring_dir.parent / "models", models)
+    springs = beside(lambda: spring_runs(cases, spring_dir, variants), jobs)
+    runs = model_runs(loaded, cases, models_dir or spring_dir.parent / "models", models)
     references = []
     for engine in engines(reference_dir, loaded.model.engine):
         runs |= fe_runs(cases, reference_dir, engine, decks_dir)
         references.append(f"fe:{engine}")
     rig = rig_peaks(reference_dir, cases)
     runs |= rig_runs(rig)
+    runs = springs() | runs
     judged = tolerances(loaded.model.tolerances, loaded.source)
     runs = _with_numerical(every, runs, variants)
-    rows = _metric_rows(cases, runs, sources, references, judged)
+    rows = _metric_rows(cases, runs, sources, references, judged, jobs)
     rows += rig_rows(
         cases,
         runs,
@@ -151,48 +154,59 @@ def _with_numerical(cases: Sequence[Case], runs: Runs, variants: Sequence[str]) 
 
 
 def _metric_rows(
-    cases: Sequence[Case], runs: Runs, sources: Sequence[str], references: Sequence[str], judged: Tolerances
+    cases: Sequence[Case], runs: Runs, sources: Sequence[str], references: Sequence[str], judged: Tolerances, jobs: int
 ) -> list[MetricRow]:
-    rows: list[MetricRow] = []
-    for reference_source in references:
-        # a second engine (ABAQUS, say) is a reference of the study's own engine too
-        engine = [references[0]] if reference_source != references[0] else []
-        for predicted_source in (*sources, *engine):
-            for case in cases:
-                reference, predicted = runs[reference_source, case.case_id], runs[predicted_source, case.case_id]
-                assumed = "; ".join(case.assumed())
-                bad, status, note = reference if reference.history is None else predicted, "", ""
-                if reference.history is not None and predicted.history is not None:
-                    try:
-                        own = compare(
-                            reference.history,
-                            predicted.history,
-                            case_id=case.case_id,
-                            reference_source=reference_source,
-                            predicted_source=predicted_source,
-                            uncertainty=reference.uncertainty,
-                            numerical=predicted.numerical,
-                            inputs=0.0,  # both sides take the study's inputs: what is wrong with these is so with both
-                            tolerances=judged,
-                            assumed=assumed,
-                        )
-                    except InputError as error:  # two clocks: no score of the pair means anything
-                        status, note = "undefined", one_line(str(error))
-                    else:
-                        rows += [row.of_run(reference.status, reference.note) for row in own]
-                        continue
-                rows += empty_rows(
-                    case.case_id,
-                    reference_source,
-                    predicted_source,
-                    status or bad.status,
-                    note or f"{bad.source}: {bad.note}",
-                    reference=reference.scalars,
-                    predicted=predicted.scalars,
-                    tolerances=judged,
-                    assumed=assumed,
-                )
-    return rows
+    # a second engine (ABAQUS, say) is a reference of the study's own engine too
+    pairs = [
+        (reference, predicted)
+        for reference in references
+        for predicted in (*sources, *([references[0]] if reference != references[0] else []))
+    ]
+    every = [(*pair, case) for pair in pairs for case in cases]
+
+    def rows_of(some: Sequence[tuple[str, str, Case]]) -> list[MetricRow]:
+        return [
+            row for a, b, case in some for row in _pair_rows(case, runs[a, case.case_id], runs[b, case.case_id], judged)
+        ]
+
+    half = len(every) // 2
+    second = beside(lambda: rows_of(every[half:]), jobs)
+    return [*rows_of(every[:half]), *second()]
+
+
+def _pair_rows(case: Case, reference: SourceRun, predicted: SourceRun, judged: Tolerances) -> Sequence[MetricRow]:
+    """Compare one run with its reference; a row without an error for each quantity where the two cannot be."""
+    assumed = "; ".join(case.assumed())
+    bad, status, note = reference if reference.history is None else predicted, "", ""
+    if reference.history is not None and predicted.history is not None:
+        try:
+            own = compare(
+                reference.history,
+                predicted.history,
+                case_id=case.case_id,
+                reference_source=reference.source,
+                predicted_source=predicted.source,
+                uncertainty=reference.uncertainty,
+                numerical=predicted.numerical,
+                inputs=0.0,  # both sides take the study's inputs: what is wrong with these is so with both
+                tolerances=judged,
+                assumed=assumed,
+            )
+        except InputError as error:  # two clocks: no score of the pair means anything
+            status, note = "undefined", one_line(str(error))
+        else:
+            return [row.of_run(reference.status, reference.note) for row in own]
+    return empty_rows(
+        case.case_id,
+        reference.source,
+        predicted.source,
+        status or bad.status,
+        note or f"{bad.source}: {bad.note}",
+        reference=reference.scalars,
+        predicted=predicted.scalars,
+        tolerances=judged,
+        assumed=assumed,
+    )
 
 
 def _ensembles(cases: Sequence[Case], rows: Sequence[MetricRow], exclude: Sequence[float]) -> tuple[Ensemble, ...]:

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from ..geometry import Path, path_of
 from ..material import relative_shift
@@ -118,6 +117,8 @@ def rig_table(cases: Sequence[Case], times: Array, law: TimeShift, reference: fl
 
 def _responses(path: Path, lengths: Array) -> Array:
     """Return the block's force over place for unit moduli and relaxation lengths tau v (m), (places, terms + 1)."""
+    from scipy.signal import lfilter  # late: it takes half a second to load, and a report runs no level
+
     total = path.contact_duration * path.speed
     x = np.linspace(0.0, total, PLACES)
     step = x[1] - x[0]

@@ -6,6 +6,7 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..beside import beside
 from ..compare.rig_peaks import rig_peaks
 from ..compare.summary import SUMMARY
 from ..files import write_text
@@ -68,6 +69,7 @@ def build_report(
     baseline_delta: Path | str | None = None,
     hierarchy_dir: Path | str | None = None,
     workflow: Path | str | None = None,
+    jobs: int = 1,
 ) -> Report:
     """Write ``index.html``, ``report.pdf``, ``summary.json``, ``tables/`` and ``figures/`` below `out_dir`.
 
@@ -89,6 +91,8 @@ def build_report(
         Tables of the model hierarchy.
     workflow : path, optional
         The workflow's note of its rules; their graph is drawn from it.
+    jobs : int
+        With 2, figures are drawn in two processes; the files are the same.
 
     Raises
     ------
@@ -105,14 +109,15 @@ def build_report(
         None if hierarchy_dir is None else Path(hierarchy_dir),
         None if workflow is None else Path(workflow),
     )
-    report = compose(Path(study_path), places)
-    write_text(places.out / "index.html", render(report))
+    report = compose(Path(study_path), places, jobs)
     _copy_tables(places)
-    write_pdf(report, places.out / "report.pdf", places.out / "tables")
+    printed = beside(lambda: write_pdf(report, places.out / "report.pdf", places.out / "tables"), jobs)
+    write_text(places.out / "index.html", render(report))
+    printed()
     return report
 
 
-def compose(study_path: Path, places: ReportPlaces) -> Report:
+def compose(study_path: Path, places: ReportPlaces, jobs: int = 1) -> Report:
     """Read everything, draw the figures into ``out/figures`` and return the report's content."""
     study = load_study(study_path)
     tables = read_tables(places.tables)
@@ -127,6 +132,7 @@ def compose(study_path: Path, places: ReportPlaces) -> Report:
     drawn = figures.Drawings(
         study, tables, views, histories, look, marks, places.decks, places.reference, places.out / "figures", rig
     )
+    pictures = beside(lambda: (drawn.forces(), drawn.contact(), drawn.geometry()), jobs)
     delta, moved = baseline_section(places.baseline_delta, marks, places.tables, places.out / "baseline", drawn.moved)
     sensitivity = sensitivity_table(tables)
     results: list[Item] = [ensemble_table(tables, marks, headline=True), ensemble_table(tables, marks, headline=False)]
@@ -139,6 +145,14 @@ def compose(study_path: Path, places: ReportPlaces) -> Report:
         tables, marks, models_table(tables, study, Costs.read(places.hierarchy, places.models, study), marks), moved,
         drawn.overview(),
     )  # fmt: skip
+    regressions, still = figure_items(drawn.regressions()), figure_items(drawn.heat(), pdf=True)
+    scattered, compound = (
+        figure_items(drawn.scatter(), pdf=True),
+        (*worth_items(study, drawn), *figure_items(drawn.material())),
+    )
+    route = route_items(study, drawn)
+    levels = hierarchy_section(places.hierarchy, study, places.out / "figures", marks)
+    forces, contact, geometry = map(figure_items, pictures())
     notes = tuple(Paragraph(text, tone="mute") for text in study.model.notes)
     sections = [
         Section("summary", "How far can the models be trusted?", (screen, Paragraph(CAVEAT), *notes)),
@@ -148,20 +162,20 @@ def compose(study_path: Path, places: ReportPlaces) -> Report:
         Section(
             "table1",
             "Speed and temperature",
-            (table1(tables, marks), *figure_items(drawn.regressions()), differences_table(tables, marks)),
+            (table1(tables, marks), *regressions, differences_table(tables, marks)),
         ),
         Section("claims", "Published statements", (claims_table(tables, marks),)),
         discussion_section(tables, marks),
         Section("cases", "Case browser", (browse,), page_only=True),
-        Section("heatmaps", "Errors over the test matrix", (heat, *figure_items(drawn.heat(), pdf=True))),
-        Section("scatter", "Predicted against reference", (points, *figure_items(drawn.scatter(), pdf=True))),
+        Section("heatmaps", "Errors over the test matrix", (heat, *still)),
+        Section("scatter", "Predicted against reference", (points, *scattered)),
         delta,
-        Section("forces", "Force histories and peaks, as in the paper", figure_items(drawn.forces())),
-        Section("contact", "Pressure on the contact face", figure_items(drawn.contact())),
-        Section("material", "Compound and friction", (*worth_items(study, drawn), *figure_items(drawn.material()))),
-        Section("geometry", "Belt, rig and mesh", figure_items(drawn.geometry())),
-        Section("route", "From raw data to model input", route_items(study, drawn)),
-        hierarchy_section(places.hierarchy, study, places.out / "figures", marks),
+        Section("forces", "Force histories and peaks, as in the paper", forces),
+        Section("contact", "Pressure on the contact face", contact),
+        Section("material", "Compound and friction", compound),
+        Section("geometry", "Belt, rig and mesh", geometry),
+        Section("route", "From raw data to model input", route),
+        levels,
         inputs_section(tables, marks),
         provenance_section(tables, SUMMARY if (places.tables / SUMMARY).is_file() else ""),
         _workflow(places),
