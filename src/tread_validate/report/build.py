@@ -111,9 +111,10 @@ def build_report(
     )
     report = compose(Path(study_path), places, jobs)
     _copy_tables(places)
-    printed = beside(lambda: write_pdf(report, places.out / "report.pdf", places.out / "tables"), jobs)
-    write_text(places.out / "index.html", render(report))
-    printed()
+    # typst has threads of its own, which a forked process would wait for in vain: it stays here
+    page = beside(lambda: write_text(places.out / "index.html", render(report)), jobs)
+    write_pdf(report, places.out / "report.pdf", places.out / "tables")
+    page()
     return report
 
 
