@@ -17,8 +17,8 @@ def beside(work: Callable[[], Result], jobs: int) -> Callable[[], Result]:
 
     The result comes back pickled. Where there is no second process to be had (one job, a system without ``fork``) and
     where the process fails, for whatever reason, the work is done here when its result is asked for: so the result is
-    the same, and what is wrong is raised here. The work must not need threads that a library may have begun here already
-    (typst, say): they are not in the fork. The linear algebra knows of forks.
+    the same, and what is wrong is raised here. The work must not need threads that a library may have begun here
+    before (typst, say): they are not in the fork. The linear algebra knows of forks.
     """
     if jobs < 2 or not hasattr(os, "fork"):
         return work
