@@ -58,7 +58,7 @@ def write_text(path: Path | str, text: str) -> None:
         temporary.write_text(text, encoding="utf-8", newline="\n")
 
 
-def write_bytes(path: Path | str, data: bytes) -> None:
+def write_bytes(path: Path | str, data: bytes | memoryview) -> None:
     """Write `data`, atomically."""
     with atomic_path(path) as temporary:
         temporary.write_bytes(data)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve, cholesky
+from scipy.linalg import cholesky
 from scipy.linalg.blas import dtrsm
 from scipy.sparse import coo_array, csr_array, diags_array
 
@@ -18,7 +18,7 @@ from ...errors import InputError
 from .body import Body
 from .element import IncompatibleField
 from .inputs import Fold
-from .symmetry import folds, gathered, spread, whole_fold
+from .symmetry import element_partners, folds, gathered, spread, whole_fold
 
 Array = NDArray[np.float64]
 
@@ -37,10 +37,13 @@ class FaceStiffness:
         On the plane of symmetry the z row and column are those of a support (identity).
     follow : (3 n, 2 k) array
         Displacement of the unloaded face for unit displacement (x, then y) of each of the k knots of the mount.
+    compliance : (3 n, 3 n) array, Pa m/N
+        Inverse of the stiffness.
     """
 
     stiffness: Array
     follow: Array
+    compliance: Array
 
 
 def condense(body: Body, poissons_ratio: float) -> FaceStiffness:
@@ -50,18 +53,25 @@ def condense(body: Body, poissons_ratio: float) -> FaceStiffness:
     """
     if not 0.0 <= poissons_ratio < 0.5:
         raise InputError("Poisson's ratio", poissons_ratio, "0 or more and less than 0.5")
-    element = IncompatibleField(body.nodes[body.elements], poissons_ratio).stiffness()
-    size = 3 * body.nodes_per_layer
-    load = _mount_load(body, element)
-    matrix, follow = np.zeros((size, size)), np.zeros(load.shape)
-    for fold in folds(body) or (whole_fold(size),):
-        diagonal, towards_mount, reach = _layers(body, element, fold)
+    both, some, size = folds(body), body.elements, 3 * body.nodes_per_layer
+    weight = np.ones(some.shape[0])
+    if both is not None:  # an element and its image do the same in an even or odd motion
+        image = element_partners(body)
+        one = np.flatnonzero(np.arange(image.size) <= image)
+        some, weight = some[one], np.where(image[one] == one, 1.0, 2.0)
+    element = IncompatibleField(body.nodes[some], poissons_ratio).stiffness() * weight[:, None, None]
+    load = _mount_load(body, poissons_ratio)
+    matrix, compliance, follow = np.zeros((size, size)), np.zeros((size, size)), np.zeros(load.shape)
+    for fold in both or (whole_fold(size),):
+        diagonal, towards_mount, reach = _layers(body, some, element, fold)
         part, pushed = _eliminate(diagonal, towards_mount, reach, gathered(load, fold))
         spread(part, fold, matrix)
-        moved = cho_solve(cho_factor(part, check_finite=False), pushed, check_finite=False)
+        answer = inverse(part)
+        spread(answer, fold, compliance)
+        moved = answer @ pushed
         follow[fold.left] += fold.own[:, None] * moved
         follow[fold.right] += fold.other[:, None] * moved
-    return FaceStiffness(matrix, follow)
+    return FaceStiffness(matrix, follow, compliance)
 
 
 def _eliminate(diagonal: list[Array], towards_mount: list[Array], reach: int, load: Array) -> tuple[Array, Array]:
@@ -89,20 +99,21 @@ def _eliminate(diagonal: list[Array], towards_mount: list[Array], reach: int, lo
     return np.asarray(np.tril(matrix) + np.tril(matrix, -1).T), load
 
 
-def _mount_load(body: Body, element: Array) -> Array:
+def _mount_load(body: Body, poissons_ratio: float) -> Array:
     """Return the load (3 n, 2 k) on the layer below the mount when each knot of the mount moves by 1."""
     last = np.all(body.elements[:, 4:] >= body.nodes_per_layer * body.layers, axis=1)
+    element = IncompatibleField(body.nodes[body.elements[last]], poissons_ratio).stiffness()
     inner, outer = (dofs_of(body.elements[last, part]) for part in (slice(0, 4), slice(4, 8)))
     shapes = body.mount_shapes()[outer - 3 * body.nodes_per_layer * body.layers]
     load = np.zeros((3 * body.nodes_per_layer, shapes.shape[2]))
-    np.add.at(load, inner - 3 * body.nodes_per_layer * (body.layers - 1), -(element[last, :12, 12:] @ shapes))
+    np.add.at(load, inner - 3 * body.nodes_per_layer * (body.layers - 1), -(element[:, :12, 12:] @ shapes))
     load[held_dofs(body)[-2 * load.shape[0] : -load.shape[0]]] = 0.0
     return load
 
 
-def _layers(body: Body, element: Array, fold: Fold) -> tuple[list[Array], list[Array], int]:
+def _layers(body: Body, some: NDArray[np.int64], element: Array, fold: Fold) -> tuple[list[Array], list[Array], int]:
     """Return the blocks K[k, k] and K[k, k + 1] of the node layers below the mount, k = 0 on the face, for a fold,
-    and how far apart two numbers are at most that couple.
+    and how far apart two numbers are at most that couple; `element` are the stiffnesses of the bricks `some` (m, 8).
 
     Supported degrees of freedom have a 1 on the diagonal and nothing else.
     """
@@ -113,28 +124,41 @@ def _layers(body: Body, element: Array, fold: Fold) -> tuple[list[Array], list[A
     np.add.at(share, fold.left, fold.own)
     np.add.at(share, fold.right, fold.other)
     held = held_dofs(body).reshape(layers + 1, n)
-    dofs = dofs_of(body.elements)
-    at, layer = place[dofs % n], body.elements[:, 0] // body.nodes_per_layer
+    dofs = dofs_of(some)
+    at, layer = place[dofs % n], some[:, 0] // body.nodes_per_layer
     weight = np.where(held.ravel()[dofs], 0.0, share[dofs % n])
     scaled = element * weight[:, :, None] * weight[:, None, :]
     rows, near, far = at * size, slice(0, 12), slice(12, 24)
 
-    def block(mine: NDArray[np.bool_], a: slice, b: slice) -> Array:
-        where = (rows[mine, a, None] + at[mine, None, b]).ravel()
-        found = np.bincount(where, scaled[mine, a, b].ravel(), size * size)
+    def block(*parts: tuple[NDArray[np.bool_], slice, slice]) -> Array:
+        """Add up parts (bricks, rows, columns) of the bricks' matrices."""
+        where = [(rows[mine, a, None] + at[mine, None, b]).ravel() for mine, a, b in parts]
+        values = [scaled[mine, a, b].ravel() for mine, a, b in parts]
+        found = np.bincount(np.concatenate(where), np.concatenate(values), size * size)
         return np.asarray(found.reshape(size, size), dtype=np.float64)
 
-    diagonal, towards_mount, under = [], [], np.zeros((size, size))
+    diagonal, towards_mount = [], []
     for k in range(layers):
-        mine = layer == k
-        own = block(mine, near, near) + under
+        mine, above = layer == k, layer == k - 1
+        own = block((mine, near, near), (above, far, far))
         fixed = np.flatnonzero(held[k][fold.left])
         own[fixed, fixed] = 1.0
         diagonal.append(own)
         if k + 1 < layers:
-            towards_mount.append(block(mine, near, far))
-            under = block(mine, far, far)
+            towards_mount.append(block((mine, near, far)))
     return diagonal, towards_mount, int(np.max(at.max(axis=1) - at.min(axis=1)))
+
+
+def inverse(matrix: Array) -> Array:
+    """Return the inverse of a symmetric positive definite matrix."""
+    from scipy.linalg.lapack import dpotrf, dpotri
+
+    factor, fault = dpotrf(matrix, lower=1)
+    assert fault == 0
+    lower, fault = dpotri(factor, lower=1, overwrite_c=1)
+    assert fault == 0
+    upper = np.triu(lower.T, 1)  # above the diagonal LAPACK left what it had found there
+    return np.asarray(np.tril(lower) + upper)
 
 
 def dofs_of(nodes: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -81,19 +81,18 @@ def keep(name: str, key: str, arrays: Arrays) -> None:
     path = _path(name, key)
     if path is None:
         return
-    places, parts, end = {}, [], 0
+    places, end = {}, 0
     for each, array in arrays.items():
-        data = np.ascontiguousarray(array).tobytes()
-        places[each] = (array.dtype.str, array.shape, end, end + len(data))
-        data += bytes(-len(data) % ALIGNED)
-        parts.append(data)
-        end += len(data)
-    body = b"".join(parts)
-    head = {"arrays": places, "bytes": len(body), "checksum": _checksum(np.frombuffer(body, dtype=np.uint8))}
-    text = json.dumps(head).encode()
+        places[each] = (array.dtype.str, array.shape, end, end + array.nbytes)
+        end += array.nbytes + (-array.nbytes) % ALIGNED
+    whole = np.zeros(PAGE + end, dtype=np.uint8)
+    for each, (_, _, begin, last) in places.items():
+        whole[PAGE + begin : PAGE + last] = np.ascontiguousarray(arrays[each]).reshape(-1).view(np.uint8)
+    text = json.dumps({"arrays": places, "bytes": end, "checksum": _checksum(whole[PAGE:])}).encode()
     assert len(text) <= PAGE
+    whole[: len(text)] = np.frombuffer(text, dtype=np.uint8)
     try:
-        write_bytes(path, text.ljust(PAGE, b"\0") + body)
+        write_bytes(path, whole.data)
         _prune(path.parent)
     except (OSError, InputError):
         return

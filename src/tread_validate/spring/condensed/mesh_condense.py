@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import astuple
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import cg, splu
 
@@ -14,7 +13,7 @@ from ...study import Block
 from ...units import MM
 from ..stiffness import StiffnessRatios
 from .body import Array, Body, FreeShape
-from .condense import FaceStiffness, assemble
+from .condense import FaceStiffness, assemble, inverse
 from .element import IncompatibleField
 from .finite_strain import PER_HEIGHT, gathered, gradients, parted
 from .kept import Arrays
@@ -35,7 +34,8 @@ def condense_mesh(body: Body, poissons_ratio: float) -> FaceStiffness:
     whole = np.asarray(matrix[face] @ held)
     whole = 0.5 * (whole + whole.T)
     moved = _solved(body, matrix, body.mount_shapes(), mount)
-    return FaceStiffness(whole, -cho_solve(cho_factor(whole), np.asarray(matrix[face] @ moved)))
+    compliance = inverse(whole)
+    return FaceStiffness(whole, -compliance @ np.asarray(matrix[face] @ moved), compliance)
 
 
 def mesh_ratios(block: Block, shape: FreeShape, file: MeshFile, poissons_ratio: float, order: float) -> Array:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from .body import Body
+from .condense import inverse
 from .inputs import NO_FOLD, ROWS, FaceNodes, Integers, Singles, Windows
 from .symmetry import folded, folds, image_of
 
@@ -134,15 +135,3 @@ def rows_of(body: Body) -> Integers:
     """Return the row across the block that each node belongs to, 0 at the trailing end, (n,)."""
     pitch = float(np.diff(body.knots).mean())
     return np.asarray(np.round((body.along - body.along[0]) / pitch), dtype=np.int64)
-
-
-def inverse(matrix: Array) -> Array:
-    """Return the inverse of a symmetric positive definite matrix."""
-    from scipy.linalg.lapack import dpotrf, dpotri
-
-    factor, fault = dpotrf(matrix, lower=1)
-    assert fault == 0
-    lower, fault = dpotri(factor, lower=1, overwrite_c=1)
-    assert fault == 0
-    lower = np.tril(lower)
-    return np.asarray(lower + np.tril(lower, -1).T)

@@ -18,13 +18,13 @@ from ...study import Block
 from ...units import MM
 from ..stiffness import StiffnessRatios, static_ratios, stuck_ratios
 from .body import Body, BodySettings, FreeShape, make_body
-from .condense import FaceStiffness, condense
+from .condense import FaceStiffness, condense, inverse
 from .finite_strain import second_order_arrays, second_order_of
 from .inputs import SecondOrder, Singles
 from .kept import Arrays, keep, kept, load
 from .mesh_body import MeshFile, body_of_mesh, hexahedra
 from .mesh_condense import condense_mesh, mesh_ratios, mesh_second_order
-from .operators import FaceOperators, inverse
+from .operators import FaceOperators
 from .polygon import Polygon
 from .stuck import stuck_ratios_of
 
@@ -91,9 +91,9 @@ def condensed(
     limit = np.array(converged_stuck(block, shape, poissons_ratio, file))
     normal, across = np.sqrt(limit / stuck_ratios(body, face, poissons_ratio, height))
     scale = np.tile([across, normal, across], body.nodes_per_layer)
-    matrix = scale[:, None] * face.stiffness * scale
     # the supports on the plane of symmetry only have to stay supports
-    return body, FaceStiffness(matrix, face.follow)
+    matrix, compliance = scale[:, None] * face.stiffness * scale, face.compliance / scale[:, None] / scale
+    return body, FaceStiffness(matrix, face.follow, compliance)
 
 
 @lru_cache(maxsize=12)
@@ -114,7 +114,7 @@ def ready(
 
     @cache
     def compliance() -> Array:
-        return inverse(stiffness())
+        return solved().compliance if solved.cache_info().currsize else inverse(stiffness())
 
     def stiffness() -> Array:
         return kept("stiffness", key, lambda: {"stiffness": solved().stiffness})["stiffness"]
