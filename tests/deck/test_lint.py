@@ -183,6 +183,18 @@ def texts(rig_case: Case, belt_case: Case, coarse: Callable[[Case], Case]) -> di
     }
 
 
+def test_files_to_be_included_are_linted_for_what_they_hold(rig_case: Case, belt_case: Case, tmp_path: Path) -> None:
+    """Sections, parameters and sets may stand in the deck that includes them; a node given twice stands here."""
+    for case in (rig_case, belt_case):
+        folder = tmp_path / case.case_id
+        deck.write(case, folder)
+        for file in folder.glob("m*.inp"):
+            assert [one.rule for one in lint(file)] == ["no-step"]
+    mesh = next((tmp_path / rig_case.case_id).glob("mesh-*.inp"))
+    mesh.write_text(mesh.read_text().replace("\n2, ", "\n1, ", 1))
+    assert "duplicate-node" in [one.rule for one in lint(mesh)]
+
+
 def test_every_deck_of_the_study_is_clean(
     cases: tuple[Case, ...], coarse: Callable[[Case], Case], tmp_path: Path
 ) -> None:

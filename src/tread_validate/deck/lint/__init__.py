@@ -10,6 +10,7 @@ from typing import Literal
 
 from ...errors import InputError
 from ...inp import read_deck
+from ...inp.parameters import MARK
 from .contact_rules import check_contact
 from .findings import Finding, Findings, LintRule, catalogue, find_rule
 from .mesh_rules import check_mesh
@@ -66,6 +67,8 @@ def lint(
         instances = [name for _, name in deck.instances]
         check_syntax(deck, findings, dialect)
         deck = repaired(deck, dialect)
+        if not deck.parameters and next(deck.named("STEP"), None) is None:  # to be included where they are defined
+            findings[:] = [one for one in findings if one.rule != "parameter"]
         names = collect(deck, findings, dialect)
         check_mesh(deck, names, findings)
         if dialect == "abaqus":
@@ -73,6 +76,8 @@ def lint(
             check_contact(deck, names, findings)
         else:
             check_steps(deck, findings)
+        # what is said of a name in place of its value follows from the name
+        findings[:] = [one for one in findings if one.rule == "parameter" or not MARK.search(one.message)]
     if dialect == "calculix":
         findings[:] = [replace(one, severity="warning") if one.rule in LENIENT else one for one in findings]
     kept = [one for one in findings if (not chosen or one.rule in chosen) and one.rule not in left]

@@ -147,7 +147,7 @@ def check_sections(deck: Deck, names: Names, findings: Findings) -> set[str]:
                     findings.add(block, "two-sections", text)
                     break
             owner[elset] = (block, ids)
-    if not lost:
+    if not lost and not (names.fragment and not covered):
         all_covered = sorted_labels(np.concatenate(covered)) if covered else np.zeros(0, dtype=np.int64)
         _check_bare(names, all_covered, stiff, findings)
     return used

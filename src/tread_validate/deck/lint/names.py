@@ -55,6 +55,7 @@ class Names:
     open_mesh: bool = False
     swallowed: bool = False
     unresolved: frozenset[str] = frozenset()
+    fragment: bool = False
 
     @property
     def gaps(self) -> bool:
@@ -78,27 +79,30 @@ class Names:
 
     def has(self, kind: str, name: str) -> bool:
         """Whether `kind` (``MATERIAL``, ``SURFACE``, ...) has something called `name`."""
-        return (
-            self.gaps or self.lost(name) or label(name) in self.named.get(kind, {}) or name in self.named.get(kind, {})
-        )
+        known = self.named.get(kind, {})
+        return self.held_back(name, bool(known)) or label(name) in known or name in known
+
+    def held_back(self, name: str, own: bool) -> bool:
+        """Whether a name that nothing here defines may be defined elsewhere; `own`: the file defines such things."""
+        return self.gaps or self.lost(name) or (self.fragment and not own)
 
     def nodes_of(self, text: str) -> IntArray | None:
         """Return the node ids of a node number or node set; None where there is no such."""
         found = self.sets.find("node", text)
-        return NO_IDS if found is None and (self.gaps or self.lost(text)) else found
+        return NO_IDS if found is None and self.held_back(text, bool(self.node_ids.size)) else found
 
     def elements_of(self, text: str) -> IntArray | None:
         """Return the element ids of an element number or element set; None where there is no such."""
         found = self.sets.find("element", text)
-        return NO_IDS if found is None and (self.gaps or self.lost(text)) else found
+        return NO_IDS if found is None and self.held_back(text, bool(self.elements)) else found
 
     def has_nset(self, name: str) -> bool:
         """Whether there is a node set of this name (or might be)."""
-        return self.gaps or self.lost(name) or label(name) in self.nsets or name in self.nsets
+        return self.held_back(name, bool(self.nsets)) or label(name) in self.nsets or name in self.nsets
 
     def has_elset(self, name: str) -> bool:
         """Whether there is an element set of this name (or might be)."""
-        return self.gaps or self.lost(name) or label(name) in self.elsets or name in self.elsets
+        return self.held_back(name, bool(self.elsets)) or label(name) in self.elsets or name in self.elsets
 
     def shown(self, number: int) -> str:
         """Return a label as it is written in its part."""
@@ -114,6 +118,7 @@ def collect(deck: Deck, findings: Findings, dialect: str = "abaqus") -> Names:
     names = Names(
         deck,
         unresolved=frozenset(declared - placed),
+        fragment="STEP" not in words,
         explicit=(explicit or "DYNAMIC TEMPERATURE-DISPLACEMENT" in words) and dialect == "abaqus",
         swallowed=any(one.rule == "structure" and UNENDED.search(one.message) for one in findings),
         mechanical=bool(words & {"DYNAMIC", "STATIC", "VISCO"}),
