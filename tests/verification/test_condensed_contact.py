@@ -279,7 +279,7 @@ def test_a_small_block_runs(belt):
     assert face.normal_force.max() > 10.0
 
 
-@pytest.mark.parametrize(("name", "least"), [("belt", 0.0), ("rig", 0.001)])
+@pytest.mark.parametrize(("name", "least"), [("belt", 0.0), ("rig", 5e-4)])
 def test_the_estimated_error_of_the_face_covers_what_a_finer_face_changes(name, least, request):
     """A face half as coarse again, 18 layers: peak N and T change by less than the estimate (and 0.2 %)."""
     case = request.getfixturevalue(name)

@@ -14,7 +14,7 @@ from ...material import PronySeries
 from ...study import Case
 from ..inputs import KernelLaw
 from ..rubber import law_of, series_of
-from .body import Body, BodySettings, fitted
+from .body import ON_WHEEL, Body, BodySettings, fitted
 from .inputs import SLIP, SMALL_STRAIN, RoadMotion, Scene, Solid, Solver, fresh_state, scratch
 from .march import Course, Record, clear_at_first, march, record_of
 from .mesh_body import mesh_file_of
@@ -37,13 +37,13 @@ class CondensedSettings:
     Attributes
     ----------
     density : float
-        Elements of the face along the block per height of the block.
+        Elements of the face along the block per height of the block; `ON_WHEEL` times as many on a wheel.
     layers : int
         Elements over the height.
     body : BodySettings or None
         The division of the block where it shall not follow from the block.
     step : float
-        Travel per step while an edge of the contact moves over the face, in elements.
+        Travel per step while an edge of the contact moves over the face, in elements (of a face on a belt).
     long_step : float
         The same where the contact grows longer than the face (a belt).
     middle_step : float
@@ -171,9 +171,10 @@ def ride_of(
     path = path or path_of(case)
     face, scene, division = scene_of(case, path, settings, series, friction)
     bend = face.bend if settings.finite_strain else face.bend[:0]
+    size = division.face_size * (ON_WHEEL if settings.body is None and _on_wheel(path) else 1.0)
     lead = LEAD
     while True:
-        time = step_times(path, division.face_size, settings, lead)
+        time = step_times(path, size, settings, lead)
         moves = motion(path, face, bend, case.height, time)
         if clear_at_first(moves, path.road.radius):
             return Ride(face, scene, moves, path.speed)
@@ -191,7 +192,7 @@ def scene_of(
     friction: FrictionLaw | None = None,
 ) -> tuple[ReadyFace, Scene, BodySettings]:
     """Return the case's face, what stays the same over its pass (the road at rest), and its division."""
-    division = settings.body or fitted(case.block, settings.density, settings.layers)
+    division = settings.body or fitted(case.block, settings.density, settings.layers, _on_wheel(path))
     shape = free_shape(path, case.block)
     file = mesh_file_of(case)
     face = ready(case.block, shape, division, case.compound.poissons_ratio, settings.mesh_correction, file)
@@ -243,6 +244,10 @@ def step_times(path: Path, size: float, settings: CondensedSettings, lead: float
             step = fine
         travel.append(min(travel[-1] + step, end))
     return np.array(travel) / path.speed
+
+
+def _on_wheel(path: Path) -> bool:
+    return path.line.ring_radius is not None
 
 
 def _approach(path: Path) -> float:
