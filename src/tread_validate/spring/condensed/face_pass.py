@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from ...geometry import Path, path_of
 from ...study import Case
+from .monotone import monotone
 from .roll import CondensedSettings, FacePass, Ride, ride_of, roll
 from .stepping import FaceBlock
 
@@ -41,8 +41,8 @@ class CondensedPass:
         """Return normal force, shear force (N, positive like lambda), touching and slipping area (m2), (n, 4)."""
         at = self._ride.moves.time
         along, up, touching, slipping = self._sums(creep_ratio).T
-        time = self.step * np.arange(int(np.ceil(at[-1] / self.step)))
-        smooth = PchipInterpolator(at, np.column_stack([up, along]))(time)
+        time: Array = self.step * np.arange(int(np.ceil(at[-1] / self.step)), dtype=np.float64)
+        smooth = monotone(at, np.column_stack([up, along]), time)
         areas = [np.interp(time, at, values) for values in (touching, slipping)]
         return np.column_stack([smooth, *areas])
 

@@ -6,7 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry import Path
+from ...kernels import kernel
 from ...study import Block
+from ..inputs import Motion
+from ..kinematics import mount_point
 from .body import FreeShape
 from .inputs import Singles
 from .march import Course
@@ -41,8 +44,10 @@ def motion(path: Path, ready: ReadyFace, bend: Singles, height: float, time: Arr
         raised = ready.polygon.rise(body.face[None], path.road.radius)
         return Course(time, theta, origin, body.face[None], np.zeros((1, 0), dtype=np.float32), raised)
     cosine, sine = np.cos(theta)[:, None], np.sin(theta)[:, None]
-    knots_x, knots_y, _ = _places(path, middle - body.knots, time[:, None])
-    dx, dy = knots_x - x[:, None], knots_y - y[:, None]
+    columns = middle - body.knots
+    line = Motion(path.line.code, path.line.parameters, path.line.table, path.speed, path.line.speed_ratio, 0.0, 0.0)
+    knots = _mount_points(line, path.column_arc(columns, time[:, None]))
+    dx, dy = knots[0] + path.columns.x_offset(columns) - x[:, None], knots[1] - y[:, None]
     free = ready.shape.mount(body.knots, height)
     moved = np.hstack([cosine * dx + sine * dy - free[:, 0], cosine * dy - sine * dx - free[:, 1]])
     unloaded = (moved @ ready.follow.T).reshape(time.size, -1, 3)
@@ -56,3 +61,14 @@ def _places(path: Path, s: Array | float, time: Array) -> tuple[Array, Array, Ar
     """Return x, y (m) and theta (rad) of the mount points of the columns at `s` (m) at `time` (s), broadcast."""
     x, y, theta = path.mount(path.column_arc(s, time))
     return x + path.columns.x_offset(s), y, theta
+
+
+@kernel()
+def _mount_points(line: Motion, arcs: Array) -> Array:
+    """Return x and y (m) of the mount line at arcs (m, k), (2, m, k): a fourth of the time of `Path.mount`."""
+    found = np.empty((2, *arcs.shape))
+    for i in range(arcs.shape[0]):
+        for k in range(arcs.shape[1]):
+            point = mount_point(line, arcs[i, k])
+            found[0, i, k], found[1, i, k] = point[0], point[1]
+    return found

@@ -97,12 +97,17 @@ def shift(pose: Pose, second: SecondOrder, work: Scratch) -> None:
     _strain(pose, second, work)
     _stress(second, work.gradient)
     _answer(second, work)
+    three = np.uintp(3)
     for i in range(second.near.shape[0]):
-        for c in range(3):
-            moved = 0.0
-            for k in range(4):
-                moved += second.share[i, k] * work.coarse[3 * second.near[i, k] + c]
-            work.unloaded[i, c] = pose.unloaded[i, c] + moved
+        x, y, z = 0.0, 0.0, 0.0
+        for k in range(4):
+            j, share = three * np.uintp(second.near[i, k]), second.share[i, k]  # without a sign: no check of one
+            x += share * work.coarse[j]
+            y += share * work.coarse[j + np.uintp(1)]
+            z += share * work.coarse[j + np.uintp(2)]
+        work.unloaded[i, 0] = pose.unloaded[i, 0] + x
+        work.unloaded[i, 1] = pose.unloaded[i, 1] + y
+        work.unloaded[i, 2] = pose.unloaded[i, 2] + z
 
 
 @kernel()
@@ -157,20 +162,22 @@ def _add_motions(spread: Shorts, fold: Fold, stress: Singles, vector: Singles) -
 def _unfold(flip: Singles, even: Singles, odd: Singles, both: Singles) -> None:
     m = even.size // 9
     for c in range(9):
+        one, other, sign = even[c * m : c * m + m], odd[c * m : c * m + m], flip[c]
+        here, image = both[2 * c * m : 2 * c * m + m], both[2 * c * m + m : 2 * c * m + 2 * m]
         for k in range(m):
-            one, other = even[c * m + k], odd[c * m + k]
-            both[2 * c * m + k] = one + other
-            both[(2 * c + 1) * m + k] = flip[c] * (one - other)
+            here[k] = one[k] + other[k]
+            image[k] = sign * (one[k] - other[k])
 
 
 @kernel()
 def _refold(flip: Singles, both: Singles, even: Singles, odd: Singles) -> None:
     m = even.size // 9
     for c in range(9):
+        one, other, sign = even[c * m : c * m + m], odd[c * m : c * m + m], flip[c]
+        here, image = both[2 * c * m : 2 * c * m + m], both[2 * c * m + m : 2 * c * m + 2 * m]
         for k in range(m):
-            one, image = both[2 * c * m + k], flip[c] * both[(2 * c + 1) * m + k]
-            even[c * m + k] = one + image
-            odd[c * m + k] = one - image
+            one[k] = here[k] + sign * image[k]
+            other[k] = here[k] - sign * image[k]
 
 
 @kernel(reorder=True)
