@@ -58,6 +58,7 @@ map: $(BIN)/.installed gfortran ## Where each model may be believed: FE over the
 
 hard-passes: $(BIN)/.installed gfortran ## Passes that are hard on models and FE engine: both run, docs/hard_passes.md written anew
 	@$(BIN)/python examples/hard_passes/hard_passes.py docs/hard_passes.md
+	@$(BIN)/python examples/hard_passes/sliding.py docs/hard_passes.md
 
 # material_pyvisco.py needs packages of its own (benchmarks/requirements-pyvisco.txt) and is run by hand
 bench: $(BIN)/.installed-dev system-packages ## Measure speed and memory

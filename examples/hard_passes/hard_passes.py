@@ -106,6 +106,13 @@ def rows(case: Case, sizes: tuple[float, ...]) -> list[str]:
     return found
 
 
+def written_between(page: Path, marks: tuple[str, str], table: str) -> None:
+    """Write a table between two marks of a page, in place of what stood there."""
+    text = page.read_text(encoding="utf-8")
+    before, after = text.split(marks[0])[0], text.split(marks[1])[1]
+    page.write_text(f"{before}{marks[0]}\n{table}\n{marks[1]}{after}", encoding="utf-8")
+
+
 def main() -> None:
     """Run every pass and write the table."""
     study = Path(__file__).with_name("study.yaml")
@@ -115,10 +122,7 @@ def main() -> None:
     codes = f"FE engine {code_digest('fe')[:12]}, `condensed` {model_digest('condensed')[:12]}"
     table = "\n".join([HEAD, *lines, "", f"Made by the code {codes}."])
     if len(sys.argv) > 1:
-        page = Path(sys.argv[1])
-        text = page.read_text(encoding="utf-8")
-        before, after = text.split(MARKS[0])[0], text.split(MARKS[1])[1]
-        page.write_text(f"{before}{MARKS[0]}\n{table}\n{MARKS[1]}{after}", encoding="utf-8")
+        written_between(Path(sys.argv[1]), MARKS, table)
     else:
         print(table)
 

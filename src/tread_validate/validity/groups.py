@@ -65,6 +65,8 @@ def strike(groups: Groups) -> float:
 
 LINEAR = ("friction", "creep", "skew")
 """Groups that are compared as they are; the others by their logarithm, Poisson's ratio by that of 1 - 2 nu."""
+SLID = 1.5
+"""Creep over the sticking limit beyond which a face slides from end to end, and constant friction knows no more."""
 NAMES = tuple(field.name for field in fields(Groups))
 
 
@@ -102,5 +104,6 @@ def groups_of(case: Case) -> Groups:
 def coordinates(groups: Groups) -> Array:
     """Return the groups as numbers to measure distances with, (11,)."""
     values = {name: getattr(groups, name) for name in NAMES}
+    values["creep"] = min(max(groups.creep, -SLID), SLID)
     values["poisson"] = 1.0 - 2.0 * groups.poisson
     return np.array([values[name] if name in LINEAR else math.log(max(values[name], 1e-12)) for name in NAMES])

@@ -318,6 +318,14 @@ def test_a_damaged_point_is_run_again(cases, tmp_path, counted):
     assert run_again(cases[:1], tmp_path, asked)[1] == {"fe": 1}
 
 
+def test_a_face_that_slides_from_end_to_end_is_one_place_whatever_its_creep(cases):
+    """Constant friction: beyond 1.5 times the sticking limit neither distance nor range knows more creep."""
+    one, two = (coordinates(replace(groups_of(cases[0]), creep=creep)) for creep in (1.5, 40.0))
+    assert one.tolist() == two.tolist()
+    less = coordinates(replace(groups_of(cases[0]), creep=1.2))
+    assert less.tolist() != one.tolist()
+
+
 def test_the_rule_says_where_it_ends(cases, base):
     points = [point(case, normal=0.01) for case in cases]
     inside = next(case for case in cases[9:] if case.block.mounting == "flat" and case.path.family != "rig")
