@@ -7,7 +7,7 @@ import numpy as np
 from ..history import History
 from ..provenance import commit, version
 from ..study import Case
-from .cautions import cautions
+from .cautions import cautions, sheared
 from .creep import resolve_creep
 from .variants import code_digest, pass_of
 
@@ -24,8 +24,9 @@ def run(case: Case, variant: str = "paper") -> History:
     """
     (case,) = resolve_creep([case])
     assert case.creep_ratio is not None
-    block_pass, wary = pass_of(case, variant), cautions(case, variant)
+    block_pass = pass_of(case, variant)
     normal, shear, touching, slipping = block_pass.forces(case.creep_ratio).T
+    wary = (*cautions(case, variant), *sheared(case, variant, float(np.max(np.abs(shear)))))
     area = float(np.max(touching))
     touches = touching > 1e-9 * area
     last = int(np.flatnonzero(touches)[-1])

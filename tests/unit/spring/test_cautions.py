@@ -2,11 +2,14 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from tread_validate.friction import Coulomb
+from tread_validate.geometry import path_of
 from tread_validate.spring import resolve_creep, run
-from tread_validate.spring.cautions import cautions
+from tread_validate.spring.cautions import SHEARED, cautions, sheared
+from tread_validate.spring.rubber import series_of
 from tread_validate.study import load_study
 
 
@@ -60,3 +63,16 @@ def test_sliding_where_friction_falls_has_no_reliable_history(belt):
 def test_a_history_carries_its_caution(belt):
     assert "shear wave" in run(replace(belt, speed=60.0), "paper").provenance["caution"]
     assert "caution" not in run(belt, "paper").provenance
+
+
+def test_shear_whose_square_nears_the_interference_lies_outside_the_map(belt):
+    """N grows with T squared, and with T at mu N runs away where that share is large: a limit that FE gave. No caution
+    of this kind for the study's 85 N of T, nor for springs that know no second order."""
+    assert sheared(belt, "condensed", 85.0) == ()
+    depth, area = belt.interference / belt.height, 25e-3 * 20e-3
+    duration = path_of(belt).contact_duration
+    shear = series_of(belt).relaxation_modulus(0.5 * duration) / (2 * (1 + belt.compound.poissons_ratio))
+    limit = float(shear) * area * np.sqrt(SHEARED * depth)
+    assert sheared(belt, "condensed", 0.999 * limit) == ()
+    assert "outside the map" in sheared(belt, "condensed", 1.001 * limit)[0]
+    assert sheared(belt, "paper", 2.0 * limit) == ()

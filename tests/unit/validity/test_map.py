@@ -25,7 +25,7 @@ from tread_validate.validity.calibration import (
 )
 from tread_validate.validity.design import RANGES, design
 from tread_validate.validity.groups import coordinates, groups_of, kind_of, strike
-from tread_validate.validity.points import MESHES, MODELS
+from tread_validate.validity.points import DAMPING_US, MESHES, MODELS, meshed
 from tread_validate.validity.rule import NEAREST, expected_error
 from tread_validate.validity.summary import summary
 from tread_validate.validity.table import Point, committed, is_reference, point_of, read_table, relative, table_text
@@ -144,6 +144,13 @@ def test_an_fe_run_that_is_no_reference_makes_no_point(fault):
         "limit": {"normal": 100.0},
     }
     assert is_reference({**data, **fault}, 6) == (not fault)
+
+
+def test_faces_of_the_maps_decks_are_damped_where_they_slide(cases):
+    """At least 1 us, more where the study asks for more."""
+    assert meshed(cases[0], 4).deck.stiffness_damping_us == DAMPING_US
+    damped = replace(cases[0], deck=cases[0].deck.model_copy(update={"stiffness_damping_us": 5.0}))
+    assert meshed(damped, 4).deck.stiffness_damping_us == 5.0
 
 
 def test_a_contact_shorter_than_three_elements_of_the_finer_mesh_makes_no_point(cases):
