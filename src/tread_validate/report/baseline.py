@@ -128,7 +128,7 @@ def _counted(flips: Sequence[Delta]) -> Table:
         Column("Flips", "cases or statements", numeric=True),
     )  # fmt: skip
     return Table(
-        "flip-counts", "Assessments that flipped, counted", columns, tuple(lines), csv="delta.csv", printed=12,
+        "flip-counts", "Assessments that flipped, counted", columns, tuple(lines), csv="delta.csv", printed=8,
         help="Every flip by itself is in the folded table below; its filter takes a case, a model or a quantity.",
     )  # fmt: skip
 

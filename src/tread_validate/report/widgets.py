@@ -12,7 +12,7 @@ from ..history import History
 from ..palette import Look
 from . import wording
 from .cases import CaseView, factor_levels
-from .content import Mark, Widget
+from .content import Widget
 from .histories import samples_each
 from .html import deflated
 from .marks import Marks, by_origin
@@ -45,13 +45,14 @@ def browser(
             "run": view.run,
             "label": view.label,
             "levels": {key: index[key][view.levels[key]] for key in index},
-            "marks": [[origin, [_mark(mark) for mark in own]] for origin, own in by_origin(marks.of(view.assumed))],
+            "marks": [[origin, [mark.code for mark in own]] for origin, own in by_origin(marks.of(view.assumed))],
             "status": states.get(view.case_id, "no FE reference recorded"),
         }
         for view in views
     ]
     data = {
         "cases": cases,
+        "marks": {mark.code: mark.text for mark in marks.all()},
         "factors": [{"key": factor.key} for factor in factors],
         "first": _first(views, histories),
         "sources": [
@@ -84,10 +85,6 @@ def _first(views: tuple[CaseView, ...], histories: Mapping[str, Mapping[str, His
     if not views:
         return ""
     return max(views, key=lambda view: len(histories.get(view.case_id, {}))).case_id
-
-
-def _mark(mark: Mark) -> dict[str, str]:
-    return {"text": mark.code, "title": mark.text, "href": f"assumption-{mark.code}"}
 
 
 def _states(tables: Tables) -> dict[str, str]:

@@ -18,6 +18,7 @@ from tread_validate.report.cases import case_views, facets, factor_levels
 from tread_validate.report.claims import claims_table
 from tread_validate.report.content import Table
 from tread_validate.report.expected import expected_section
+from tread_validate.report.figures.errors import heat
 from tread_validate.report.histories import HistoryStore, load_histories
 from tread_validate.report.marks import Marks
 from tread_validate.report.models import Costs, models_table, own_words
@@ -161,6 +162,21 @@ def test_table_1_has_a_column_for_every_source(tables: Tables, marks: Marks) -> 
         "2.70",
     ]
     assert table.rows[0].cells[4].note == "sd 0.60; 95 % CI 1.80 to 4.20"
+
+
+def test_heat_map_that_no_page_can_hold_says_where_it_is(tables: Tables, marks: Marks, tmp_path: Path) -> None:
+    """Exact: 34 speeds at each of 31 depths and two temperatures are 62 rows; on paper there is a sentence instead."""
+    first = tables.cases[0]
+    rows = tuple(
+        replace(
+            first, case_id=f"{depth}-{warm}-{rpm}", interference_mm=0.01 * depth, temperature_degC=warm, speed_rpm=rpm
+        )
+        for depth in range(1, 32) for warm in (22.0, 45.0) for rpm in range(100, 3500, 100)
+    )  # fmt: skip
+    pair = ("spring:paper", "fe:embedded")
+    drawn = heat(tmp_path, tables, case_views(rows), pair, marks.all())
+    assert drawn.figure is None
+    assert drawn.reason.endswith(f"{len(rows)} cases do not fit a page; the HTML page has a cell for each.")
 
 
 def test_claim_without_a_value_shows_a_dash_and_its_reason(tables: Tables, marks: Marks) -> None:

@@ -20,6 +20,8 @@ from .style import Drawn, draw
 
 RAMP = LinearSegmentedColormap.from_list("error", ["#80b8de", "#ffffff", "#f29c68"])
 
+MOST_ROWS = 60  # of a heat map on paper
+
 
 def heat(
     folder: Path, tables: Tables, views: tuple[CaseView, ...], pair: tuple[str, str], marks: tuple[Mark, ...]
@@ -34,6 +36,8 @@ def heat(
     limit = max(abs(error) for error in every if error is not None)  # one scale for all models
     rows = [(facet, label, cells) for facet in facets(views) for label, cells in facet.rows]
     across = max(len(cells) for _, _, cells in rows)
+    if len(rows) > MOST_ROWS:
+        return Drawn(None, f"{names}: {len(views)} cases do not fit a page; the HTML page has a cell for each.")
 
     def paint(axes: Axes) -> None:
         grid = np.full((len(rows), across), np.nan)

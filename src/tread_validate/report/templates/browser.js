@@ -111,7 +111,7 @@ TV.browser = (function () {
     marks.replaceChildren();
     for (const [origin, members] of current.marks) {
       const tag = TV.element("span", { class: "mark" }, origin);
-      for (const mark of members) { tag.append(" ", TV.element("a", { href: "#" + mark.href, title: mark.title }, mark.text)); }
+      for (const code of members) { tag.append(" ", TV.element("a", { href: "#assumption-" + code, title: data.marks[code] }, code)); }
       marks.append(tag, " ");
     }
     document.getElementById("case-link").setAttribute("href", "#case=" + current.id);
