@@ -11,7 +11,13 @@ import typer
 def command(
     deck: Annotated[Path, typer.Argument(help="deck (.inp)")],
     output: Annotated[Path, typer.Option("-o", "--output", help="history CSV; the record goes beside it")],
-    user: Annotated[Path | None, typer.Option("--user", help="friction routine, vfric.f")] = None,
+    user: Annotated[
+        Path | None,
+        typer.Option(
+            "--user",
+            help="friction routine: vfric.f (general contact: vfriction.f); on Windows renamed to .for on the way",
+        ),
+    ] = None,
     folder: Annotated[Path | None, typer.Option("--work", help="working folder; one beside the output if none")] = None,
     settings: Annotated[
         Path | None, typer.Option("--settings", help="engine settings (YAML): executable, queue, licence wait")

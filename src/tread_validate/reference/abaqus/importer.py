@@ -26,6 +26,8 @@ from .tables import AbaqusTable, read_table
 
 FORCE_UNITS = {"N": 1.0, "kN": KILO, "mN": MILLI}
 TIME_UNITS = {"s": 1.0, "ms": MS, "us": US}
+VARIANTS = ("-constant-friction", "-general-contact")
+"""What the names of a case's other decks, and of their jobs, end with."""
 
 
 @dataclass(frozen=True)
@@ -171,7 +173,8 @@ def write(imported: Imported, path: Path | str) -> None:
 def _identity(table: AbaqusTable, facts: DeckFacts, choice: Options) -> list[str]:
     checks = []
     for what, found in (("--case", choice.case_id), (f"{table.source}: job", table.notes.get("job"))):
-        if found and found != facts.case_id:
+        same = {facts.case_id, *(facts.case_id + one for one in VARIANTS if "job" in what)}
+        if found and found not in same:
             raise InputError(what, found, f"{facts.case_id}, the case of the deck")
         if found:
             checks.append(f"case id: {what.split(': ')[-1]} says {found}, as the deck does")

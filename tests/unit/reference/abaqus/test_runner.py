@@ -138,3 +138,20 @@ def test_forces_of_half_a_block_are_doubled(deck, user, work):
 )
 def test_a_routine_has_the_ending_that_the_system_expects(user, system, called):
     assert routine_name(Path(user), system) == called
+
+
+@pytest.mark.parametrize(("variant", "routine"), [("-constant-friction", None), ("-general-contact", "vfriction.f")])
+def test_a_case_s_other_decks_run_as_jobs_of_their_own_names(deck, user, work, variant, routine):
+    """The heading is the case's; the job is the deck's name, and its routine is the one that is checked."""
+    other = deck.with_name(f"{deck.stem}{variant}.inp")
+    other.write_bytes(deck.read_bytes())
+    own = None
+    if routine is not None:
+        own = user.with_name(routine)
+        own.write_text(user.read_text() + "c     for general contact\n")
+    imported = run_abaqus(other, own, work, AbaqusSettings(command=COMMAND), say=lambda _: None)
+    call = (work / "calls.txt").read_text()
+    assert call.startswith(f"job={other.stem} input={other.name} " + ("" if routine is None else f"user={routine} "))
+    checks = imported.record["checks"]
+    assert any(check.startswith(f"case id: job says {other.stem}") for check in checks)
+    assert ("user_sha256: equal" in checks) == (routine is not None)
