@@ -32,7 +32,7 @@ def command(
     workflow: Annotated[
         Path | None, typer.Option(help="the workflow's note of its rules; without it their graph is not drawn")
     ] = None,
-    jobs: Annotated[int, typer.Option("--jobs", min=1, help="2: draw and set in two processes")] = 1,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, max=256, help="2: draw and set in two processes")] = 1,
 ) -> None:
     """Write the report: index.html (one self-contained file), report.pdf, tables/ and figures/.
 

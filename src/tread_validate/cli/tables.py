@@ -33,7 +33,7 @@ def command(
     all_interferences: Annotated[
         bool, typer.Option("--all-interferences", help="leave no interference out of the regressions")
     ] = False,
-    jobs: Annotated[int, typer.Option("--jobs", min=1, help="2: read and score in two processes")] = 1,
+    jobs: Annotated[int, typer.Option("--jobs", min=1, max=256, help="2: read and score in two processes")] = 1,
 ) -> None:
     """Compare every run with its reference and the study with the paper.
 
