@@ -1,5 +1,7 @@
 # Decks -> reference runs by the study's engine. A report never waits for these: it uses the filed references of the same
-# problems and says which are stale or missing. `make reference` runs just those.
+# problems and says which are stale or missing. `make reference` runs just those: the built-in engine's side by side in
+# one job, as every start of a process costs what a third of a short pass does; other engines', and all on a cluster
+# (`one_job_a_pass`), in a job each.
 checkpoint stale_references:
     input:
         study=STUDY,
@@ -46,22 +48,49 @@ rule fe:
         "tread-validate {params.run} {input.inp} --user {input.user} -o {output.history} > {log} 2>&1"
 
 
-rule reference:
-    input:
-        histories=stale_histories,
-        decks=rules.decks.output.inp,
-    log:
-        f"{LOGS}/reference.log",
-    conda:
-        ENVIRONMENT
-    params:
-        engine=ENGINE,
-        study=NAME,
-        decks=lambda wildcards: DECKS,
-        references=lambda wildcards: REFERENCES,
-        replace="--replace" if config["replace"] else "",
-    message:
-        "Filing the reference runs"
-    shell:
-        "tread-validate file-references {input.histories} --engine {params.engine} --decks {params.decks} "
-        "--study {params.study} --references {params.references} {params.replace} > {log} 2>&1"
+if ENGINE == "embedded" and not config["one_job_a_pass"]:
+
+    rule reference:
+        input:
+            study=STUDY,
+            data=DATA_FILES,
+            decks=rules.decks.output.inp,
+        log:
+            f"{LOGS}/reference.log",
+        conda:
+            ENVIRONMENT
+        threads: workflow.cores
+        params:
+            decks=lambda wildcards: DECKS,
+            references=lambda wildcards: REFERENCES,
+            runs=f"{RESULTS}/fe/reference",
+            logs=lambda wildcards: LOGS,
+            replace="--replace" if config["replace"] else "",
+        message:
+            "Running and filing the outstanding references, {threads} at a time"
+        # to the screen as well, for it takes minutes; an interrupt ends the runs, and the log takes their last words
+        shell:
+            "tread-validate run-references {input.study} --decks {params.decks} --references {params.references} "
+            "--output {params.runs} --logs {params.logs} --jobs {threads} {params.replace} 2>&1 | tee -i {log}"
+
+else:
+
+    rule reference:
+        input:
+            histories=stale_histories,
+            decks=rules.decks.output.inp,
+        log:
+            f"{LOGS}/reference.log",
+        conda:
+            ENVIRONMENT
+        params:
+            engine=ENGINE,
+            study=NAME,
+            decks=lambda wildcards: DECKS,
+            references=lambda wildcards: REFERENCES,
+            replace="--replace" if config["replace"] else "",
+        message:
+            "Filing the reference runs"
+        shell:
+            "tread-validate file-references {input.histories} --engine {params.engine} --decks {params.decks} "
+            "--study {params.study} --references {params.references} {params.replace} > {log} 2>&1"

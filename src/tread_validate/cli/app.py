@@ -59,6 +59,7 @@ VERBS = {
     "stale": "stale",
     "mesh-error": "mesh_error",
     "file-references": "file_references",
+    "run-references": "run_references",
     "migrate-references": "migrate_references",
     "schema": "schema",
 }
@@ -125,11 +126,11 @@ def _main(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with its code."""
-    warnings.showwarning = _warned
+    warnings.showwarning = say_warning
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
 
-def _warned(message: Warning | str, *_of: Any, **_more: Any) -> None:
+def say_warning(message: Warning | str, *_of: Any, **_more: Any) -> None:
     """Say a warning in one line, without the place in the code that a user cannot change."""
     typer.echo(f"tread-validate: warning: {one_line(str(message), 200)}", err=True)
 

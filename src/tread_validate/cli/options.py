@@ -13,8 +13,9 @@ from ..bounds import bounded
 from ..errors import InputError
 
 # Options that name what is written; every other path is read. A test goes through all verbs.
-WRITTEN = {"--output", "--out", "--abaqus-card", "--figure", "--peaks-figure", "--vfric", "--junit", "--markdown"} | {
-    "--reports"
+WRITTEN = {"--output", "--out", "--logs", "--abaqus-card", "--figure", "--peaks-figure", "--vfric", "--junit"} | {
+    "--markdown",
+    "--reports",
 }
 
 
