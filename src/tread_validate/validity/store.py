@@ -8,11 +8,13 @@ its code has; one of them never makes the other stale.
 from __future__ import annotations
 
 import json
+import os
+import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass, field
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from pathlib import Path
 from typing import Any
 
@@ -93,6 +95,18 @@ def _work(case: Case, known: Data) -> Data:
     return {"fe": fe, "models": models}
 
 
+def end_with_parent() -> None:
+    """End this process when the one that started it has ended, however it ended: a pool's processes wait for ever."""
+    parent = parent_process()
+
+    def wait_for_it() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=wait_for_it, daemon=True).start()
+
+
 def _run(cases: Sequence[Case], known: Mapping[str, Data], more: More, jobs: int) -> Iterator[tuple[Case, Data]]:
     waiting = iter(cases)
     if jobs == 1:
@@ -101,7 +115,7 @@ def _run(cases: Sequence[Case], known: Mapping[str, Data], more: More, jobs: int
                 return
             yield case, _work(case, known[case.case_id])
         return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=end_with_parent) as pool:
         running: dict[Future[Data], Case] = {}
         while True:
             while len(running) < jobs and more() and (following := next(waiting, None)) is not None:
