@@ -15,7 +15,7 @@ from ..reference import FeStore
 from ..reference.filing import FinishedRun, drop_unused_blocks, file_run
 from ..reference.outstanding import cost, made_today, outstanding
 from ..study import Case, LoadedStudy
-from .side_by_side import Done, Job, run_side_by_side
+from .side_by_side import Done, VerbRun, run_side_by_side
 
 ENGINE = "embedded"
 
@@ -32,11 +32,11 @@ class Places:
         """Return a case's run where it is whole, of today's deck and code."""
         return made_today(self.runs / f"{case_id}.csv", deck_files(self.decks, case_id), ENGINE)
 
-    def job(self, case: Case) -> Job:
+    def job(self, case: Case) -> VerbRun:
         """Return the run of a case as `tread-validate fe`."""
         name, deck = case.case_id, deck_files(self.decks, case.case_id)
         arguments = ("fe", str(deck.deck), "--user", str(deck.user), "-o", str(self.runs / f"{name}.csv"))
-        return Job(name, arguments, self.logs / "fe" / f"{name}.log")
+        return VerbRun(name, arguments, self.logs / "fe" / f"{name}.log")
 
     def write_times(self, done: Done) -> None:
         """Write a job's wall and processor seconds and its memory in MB, as the workflow's benchmarks are written."""
@@ -46,7 +46,7 @@ class Places:
 
 
 @dataclass
-class Progress:
+class Filing:
     """Files runs, and says after each case how many are done and how long the rest will take.
 
     Attributes
@@ -103,7 +103,7 @@ class Progress:
 
 def run_outstanding(
     study: LoadedStudy, store: FeStore, places: Places, *, jobs: int, replace: bool, say: Callable[[str], None]
-) -> Progress:
+) -> Filing:
     """Run and file what is outstanding, the longest first so that no process is left alone at the end.
 
     Parameters
@@ -117,7 +117,7 @@ def run_outstanding(
 
     Returns
     -------
-    Progress
+    Filing
         With what failed or was refused.
     """
     cases = study.cases()
@@ -125,7 +125,7 @@ def run_outstanding(
     for case, reference in wanted:
         say(f"{case.case_id}: {reference.status.replace('_', ' ')}, {reference.reason}")
     say(f"{len(cases) - len(wanted)} of {len(cases)} references of engine {ENGINE} are current")
-    progress = Progress(store, study.model.name, replace, say, {case.case_id: cost(case) for case, _ in wanted})
+    progress = Filing(store, study.model.name, replace, say, {case.case_id: cost(case) for case, _ in wanted})
     todo = list[Case]()
     for case, _ in wanted:
         run = places.run(case.case_id)

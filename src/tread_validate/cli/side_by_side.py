@@ -27,7 +27,7 @@ GRACE = 5.0  # s that a process has to clean up when it is told to end
 
 
 @dataclass(frozen=True)
-class Job:
+class VerbRun:
     """A verb's arguments, verb first, and the file that takes what it prints."""
 
     name: str
@@ -51,7 +51,7 @@ class Done:
         The most that its process has held so far, this job and those before it; nan where the process was lost.
     """
 
-    job: Job
+    job: VerbRun
     code: int
     fault: str
     seconds: float
@@ -59,7 +59,7 @@ class Done:
     memory: float
 
 
-def run_side_by_side(jobs: Sequence[Job], processes: int) -> Generator[Done, None, None]:
+def run_side_by_side(jobs: Sequence[VerbRun], processes: int) -> Generator[Done, None, None]:
     """Run jobs in the order given, `processes` at a time, and yield each as it ends.
 
     The iterator must be closed (`contextlib.closing`): what then still runs is ended and leaves nothing half-written.
@@ -94,10 +94,10 @@ class _Process:
         self.process.start()
         theirs.close()
         self.lives = True
-        self.job = Job("", (), Path(os.devnull))
+        self.job = VerbRun("", (), Path(os.devnull))
         self.begun = 0.0
 
-    def begin(self, job: Job) -> None:
+    def begin(self, job: VerbRun) -> None:
         self.job, self.begun = job, time.monotonic()
         with contextlib.suppress(BrokenPipeError):  # a process that is gone is told of by `end`
             self.connection.send(job)
