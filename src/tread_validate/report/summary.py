@@ -58,8 +58,9 @@ def references(tables: Tables) -> Fact:
 
 
 def _published(tables: Tables, marks: Marks) -> Fact | None:
-    """Count, of the statements that models predict, how many agree with the paper."""
-    judged = [row for row in tables.claims if row.kind == "model" and row.status not in ("not_compared", "missing")]
+    """Count, of the statements that models predict about cases of this study, how many agree with the paper."""
+    unanswered = ("not_applicable", "not_compared", "missing")
+    judged = [row for row in tables.claims if row.kind == "model" and row.status not in unanswered]
     if not judged:
         return None
     texts = []

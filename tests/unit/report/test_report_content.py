@@ -124,6 +124,18 @@ def test_first_screen_names_cases_references_baseline_and_inputs(
     assert facts["Inputs"] == "18 of 18 cases depend on 3 assumed and 1 synthetic inputs"
 
 
+def test_statements_about_other_cases_are_not_counted_as_disagreeing(
+    tables: Tables, study: LoadedStudy, marks: Marks
+) -> None:
+    """A study of another block has none of the published cases: the first screen does not count them."""
+    others = [replace(row, status="not_applicable", assessment="cannot tell") for row in tables.claims]
+    models = models_table(tables, study, Costs({}), marks)
+    told = (tables, replace(tables, claims=others))
+    screens = [first_screen(read, marks, models, None, None) for read in told]
+    said = [{fact.label for fact in screen.facts} for screen in screens]
+    assert [("Published statements" in labels) for labels in said] == [True, False]
+
+
 def test_where_nothing_was_compared_that_is_said_first(inputs: Any, study: LoadedStudy, marks: Marks) -> None:
     """Exact: without a single current reference the assessment is `cannot tell`, never `good enough`, never a zero."""
     tables = read_tables(inputs.tables)
