@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from tread_validate.compare.tables import Delta, rows_text
+from tread_validate.palette import looks
 from tread_validate.report import wording
 from tread_validate.report.alternating import alternating_table
 from tread_validate.report.baseline import baseline_section
@@ -19,6 +20,7 @@ from tread_validate.report.claims import claims_table
 from tread_validate.report.content import Table
 from tread_validate.report.expected import expected_section
 from tread_validate.report.figures.errors import heat
+from tread_validate.report.figures.overview import overview
 from tread_validate.report.histories import HistoryStore, load_histories
 from tread_validate.report.marks import Marks
 from tread_validate.report.models import Costs, models_table, own_words
@@ -88,6 +90,21 @@ def test_stale_reference_is_not_loaded(tables: Tables, inputs: Any, made_up: Mod
     store = HistoryStore(inputs.spring, inputs.spring.parent / "models", inputs.reference)
     assert store.path("fe:embedded", made_up.STALE, f"fe/embedded/{made_up.STALE}-0").is_file()
     assert set(load_histories(tables, store)[made_up.STALE]) == {"spring:paper"}
+
+
+def test_a_picture_without_a_reference_says_so(
+    tables: Tables, inputs: Any, made_up: ModuleType, tmp_path: Path
+) -> None:
+    """The case whose reference is stale is drawn by its models alone, and titled so; any other by both."""
+    store = HistoryStore(inputs.spring, inputs.spring.parent / "models", inputs.reference)
+    histories = load_histories(tables, store)
+    titles = []
+    for view in case_views(tables.cases):
+        drawn = histories[view.case_id]
+        of = looks(["fe:embedded"], ["spring:paper"])
+        titles.append((len(drawn), overview(tmp_path, view, drawn, of, (), ()).title))
+    assert (1, "One case: the models, without a reference") in titles
+    assert (2, "One case: reference and models") in titles
 
 
 @pytest.fixture

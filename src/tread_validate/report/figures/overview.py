@@ -54,10 +54,11 @@ def overview(
         svg, data = folder / "overview.svg", folder / "overview.csv"
         save_light(figure, svg)
         write_text(data, numbers_text(grid))
+    title = "reference and models" if reference else "the models, without a reference"
     caption = f"{view.label}."
     if reference:
         caption += f" Band: {wording.source(reference)} and the expanded uncertainty U of its peak's comparison."
-    return Figure("overview", "One case: reference and models", caption, svg, marks, wide=True, data=data)
+    return Figure("overview", f"One case: {title}", caption, svg, marks, wide=True, data=data)
 
 
 def _panel(
