@@ -113,6 +113,14 @@ def written_between(page: Path, marks: tuple[str, str], table: str) -> None:
     page.write_text(f"{before}{marks[0]}\n{table}\n{marks[1]}{after}", encoding="utf-8")
 
 
+def write_or_print(marks: tuple[str, str], table: str) -> None:
+    """Write a table into the page that the command line names, or print it."""
+    if len(sys.argv) > 1:
+        written_between(Path(sys.argv[1]), marks, table)
+    else:
+        print(table)
+
+
 def main() -> None:
     """Run every pass and write the table."""
     study = Path(__file__).with_name("study.yaml")
@@ -121,10 +129,7 @@ def main() -> None:
         lines += rows(case, (2.0, 1.0, 0.5) if case.height < 5e-3 else (1.0,))
     codes = f"FE engine {code_digest('fe')[:12]}, `condensed` {model_digest('condensed')[:12]}"
     table = "\n".join([HEAD, *lines, "", f"Made by the code {codes}."])
-    if len(sys.argv) > 1:
-        written_between(Path(sys.argv[1]), MARKS, table)
-    else:
-        print(table)
+    write_or_print(MARKS, table)
 
 
 if __name__ == "__main__":

@@ -5,13 +5,12 @@ Usage: python examples/hard_passes/sliding.py [PAGE] (five minutes on one core; 
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from hard_passes import meshed, written_between
+from hard_passes import meshed, write_or_print
 
 from tread_validate import deck, fe, load_study, spring
 from tread_validate.friction import Coulomb
@@ -99,10 +98,7 @@ def main() -> None:
             *energy_rows(cases),
         ]
     )
-    if len(sys.argv) > 1:
-        written_between(Path(sys.argv[1]), MARKS, table)
-    else:
-        print(table)
+    write_or_print(MARKS, table)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ def beside(work: Callable[[], Result], jobs: int) -> Callable[[], Result]:
     """Begin `work` in a forked process where `jobs` is 2 or more; return what waits for its result.
 
     The result comes back pickled. Where there is no second process to be had (one job, a system without ``fork``) and
-    where the process fails, for whatever reason, the work is done here when its result is asked for: so the result is
+    where the process fails, which a warning says, the work is done here when its result is asked for: so the result is
     the same, and what is wrong is raised here. The work must not need threads that a library may have begun here
     before (typst, say): they are not in the fork. The linear algebra knows of forks.
     """
@@ -38,6 +38,7 @@ def beside(work: Callable[[], Result], jobs: int) -> Callable[[], Result]:
             answer = pipe.read()
         _, status = os.waitpid(child, 0)
         if status != 0:
+            warnings.warn(f"a second process ended early (status {status}); its work is done again here", stacklevel=2)
             return work()
         result: Result = pickle.loads(answer)
         return result

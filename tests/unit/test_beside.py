@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 
 import numpy as np
@@ -29,12 +30,13 @@ def test_what_is_wrong_is_raised_where_the_result_is_asked_for(jobs: int) -> Non
         raise InputError("study.yaml: speed", "-1", "more than 0")
 
     waits = beside(work, jobs)
-    with pytest.raises(InputError, match="speed"):
+    said = pytest.warns(UserWarning, match="ended early") if jobs > 1 else contextlib.nullcontext()
+    with said, pytest.raises(InputError, match="speed"):
         waits()
 
 
 def test_a_process_that_is_killed_costs_time_and_nothing_else() -> None:
-    """Whoever asks does the work again."""
+    """Whoever asks does the work again, and says so."""
     here = os.getpid()
 
     def work() -> str:
@@ -42,7 +44,9 @@ def test_a_process_that_is_killed_costs_time_and_nothing_else() -> None:
             os.kill(os.getpid(), 9)
         return "done"
 
-    assert beside(work, 2)() == "done"
+    waits = beside(work, 2)
+    with pytest.warns(UserWarning, match="ended early"):
+        assert waits() == "done"
 
 
 def test_two_run_at_once() -> None:

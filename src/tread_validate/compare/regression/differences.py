@@ -44,15 +44,14 @@ def corrected(rows: Sequence[Difference], level: float = LEVEL) -> tuple[Differe
     Holm, Scand. J. Stat. 6 (1979) 65-70: at a level of 5 % one family in twenty has any false difference in it, however
     many tests it holds; uncorrected, one test in twenty has.
     """
+    from statsmodels.stats.multitest import multipletests  # late: half a second, and most commands test nothing
+
     out = list(rows)
     for family in dict.fromkeys(row.family for row in rows):
         own = [i for i, row in enumerate(rows) if row.family == family and row.p_value is not None]
         if not own:
             continue
-        own.sort(key=lambda i: rows[i].p_value or 0.0)
-        # step-down: the least of m p values times m, the next times m - 1, ...; none below the one before it
-        times = np.arange(len(own), 0, -1)
-        p_holm = np.minimum(np.maximum.accumulate(times * [rows[i].p_value or 0.0 for i in own]), 1.0)
+        _, p_holm, _, _ = multipletests([rows[i].p_value for i in own], alpha=1.0 - level, method="holm")
         for i, p in zip(own, p_holm, strict=True):
             out[i] = replace(rows[i], p_holm=float(p), tests=len(own), significant=bool(p < 1.0 - level))
     return tuple(out)

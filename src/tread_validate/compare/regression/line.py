@@ -42,19 +42,19 @@ def fit_line(x: NDArray[np.float64], force: NDArray[np.float64], level: float = 
     covariance of the least-squares coefficients with n - 2 degrees of freedom. Raises `InputError` for fewer than
     two different x and for an intercept of zero.
     """
+    from statsmodels.regression.linear_model import OLS  # late: half a second, and most commands fit nothing
+
     if np.unique(x).size < 2:
         raise InputError("regression", f"{np.unique(x).size} level(s)", "at least two different levels")
-    design = np.column_stack([np.ones_like(x), x])
-    inverse = np.linalg.pinv(design)  # by singular values
-    found = inverse @ force
-    intercept, slope = (float(value) for value in found)
+    result = OLS(force, np.column_stack([np.ones_like(x), x])).fit()
+    intercept, slope = (float(value) for value in result.params)
     if intercept == 0.0:
         raise InputError("regression", "intercept 0", "a force at x = 0 to be relative to")
-    freedom = force.size - 2
-    fitted = np.asarray(design @ found, dtype=np.float64)
+    freedom = int(result.df_resid)
+    fitted = np.asarray(result.fittedvalues, dtype=np.float64)
     if freedom < 1:
         return Fit(slope / intercept, -math.inf, math.inf, fitted)
-    covariance = inverse @ inverse.T * float(np.sum((force - fitted) ** 2)) / freedom
+    covariance = np.asarray(result.cov_params(), dtype=np.float64)
     low, high = fieller(slope, intercept, covariance[1, 1], covariance[0, 0], covariance[0, 1], freedom, level)
     return Fit(slope / intercept, low, high, fitted)
 
